@@ -25,7 +25,10 @@ std::string lacking(const Robot& robot, Ability have) {
     if (!needed || (static_cast<unsigned>(have) & static_cast<unsigned>(ability))) return;
     list += (list.empty() ? "" : ", ") + words;
   };
-  need(robot.drive.has_value(), Ability::wheels, "wheels (<differential>)");
+  const bool steers = robot.drive && robot.drive->steering, rolls_sideways = robot.drive && robot.drive->mecanum;
+  need(robot.drive && !steers && !rolls_sideways, Ability::wheels, "wheels (<differential>)");
+  need(steers, Ability::steering, "wheels that steer (<ackermann>)");
+  need(rolls_sideways, Ability::mecanum, "wheels with rollers (<mecanum>)");
   need(robot.quadrotor.has_value(), Ability::rotors, "rotors (<quadrotor>)");
   need(robot.legs.has_value(), Ability::legs, "legs (<legs>)");
   const bool leaves_the_plane = robot.quadrotor || robot.legs;

@@ -15,7 +15,9 @@ enum class Ability : unsigned {
   tilting = 8,  // roll and pitch change
   legs = 16,    // six half circles on motors, with springs
   bouncing = 512,
-  pushed = 1024,  // moved by other bodies only
+  pushed = 1024,    // moved by other bodies only
+  steering = 2048,  // two more wheels that steer
+  mecanum = 4096,   // four wheels with rollers
   // Limbs: bodies on joints without a motor.
   hinges = 32,   // revolute, continuous
   sliders = 64,  // prismatic

@@ -64,6 +64,28 @@ Mass rigid_mass(const Robot& robot, std::size_t link) {
 
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link) { return shapes_through(robot, link, is_fixed); }
 
+namespace {
+
+bool is_kingpin(const Robot& robot, const Joint& joint) {
+  if (!robot.drive || !robot.drive->steering) return false;
+  const auto& kingpins = robot.drive->steering->kingpins;
+  return joint.child == robot.joints[kingpins[0]].child || joint.child == robot.joints[kingpins[1]].child;
+}
+
+}  // namespace
+
+std::vector<Shape> body_shapes(const Robot& robot) {
+  return shapes_through(robot, 0, [&](const Joint& joint) { return is_fixed(joint) && !is_kingpin(robot, joint); });
+}
+
+std::vector<Shape> steered_shapes(const Robot& robot, std::size_t side) {
+  const std::size_t link = robot.joints[robot.drive->steering->kingpins[side]].child;
+  const Eigen::Isometry3d frame = *frame_on_body(robot, link);
+  std::vector<Shape> shapes = shapes_through(robot, link, is_fixed);
+  for (Shape& shape : shapes) shape.pose = frame * shape.pose;
+  return shapes;
+}
+
 std::vector<Shape> whole_shapes(const Robot& robot) { return shapes_through(robot, 0, is_any); }
 
 Mass whole_mass(const Robot& robot) {

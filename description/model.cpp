@@ -42,7 +42,7 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
     throw std::runtime_error("model '" + model + "' is xacro, not URDF; run xacro first: xacro " + model + " > " +
                              (fs::path(made).extension() == ".urdf" ? made : made + ".urdf"));
   }
-  const bool is_path = fs::path(model).extension() == ".urdf";
+  const bool is_path = fs::path(model).extension() == ".urdf" || fs::path(model).extension() == ".xml";  // MJCF
   const std::string file = is_path ? model : model + ".urdf";
   if (!is_path && model.find('/') != std::string::npos) {
     throw std::runtime_error("model '" + model + "' is neither a name nor a path to a .urdf file");

@@ -24,8 +24,9 @@ Wrench Quadrotor::wrench(const RotorRates& rates, const Vector3d& v, const Vecto
   return wrench(rates, squares, v, w);
 }
 
-RotorRates Quadrotor::rates_for(double thrust, const Vector3d& torque) const {
+RotorRates Quadrotor::rates_for(double thrust, const Vector3d& of_body) const {
   if (!(thrust > 0)) return {};
+  const Vector3d torque = rotor_angle == 0 ? of_body : along_arms(of_body);
   const double most = thrust_factor * max_speed * max_speed;  // of one rotor
   const double roll = std::clamp(torque.x() / (2 * arm), -most / 2, most / 2);
   const double pitch = std::clamp(torque.y() / (2 * arm), -most / 2, most / 2);

@@ -1,14 +1,17 @@
 // Four rotors that lift and turn a body, independent of any engine.
 //
-// The front and the back rotor turn clockwise seen from above, the left and the right one the other way. Thrust and
-// torque grow with the square of a rotor's rate, which follows its command as a first-order lag (Powers, Mellinger,
-// Kumar: Quadrotor kinematics and dynamics. Handbook of Unmanned Aerial Vehicles, 2015). Lateral air flow causes a drag
-// at a rotor in proportion to its rate (Martin, Salaun: The true role of accelerometer feedback in quadrotor control.
-// ICRA 2010). Rotors have no angular momentum of their own and do not flap.
+// The rotors are a quarter turn apart, the first `rotor_angle` from the body's x axis: 0 is a plus, an eighth of a turn
+// an X, whose front rotor is in front on the left. The front and the back rotor turn clockwise seen from above, the
+// left and the right one the other way. Thrust and torque grow with the square of a rotor's rate, which follows its
+// command as a first-order lag (Powers, Mellinger, Kumar: Quadrotor kinematics and dynamics. Handbook of Unmanned
+// Aerial Vehicles, 2015). Lateral air flow causes a drag at a rotor in proportion to its rate (Martin, Salaun: The true
+// role of accelerometer feedback in quadrotor control. ICRA 2010). Rotors have no angular momentum of their own and do
+// not flap.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 
 namespace muster::description {
 
@@ -25,6 +28,7 @@ struct RotorDecay {
 
 struct Quadrotor {
   double arm = 0;            // of the rotors' axes from the body's z axis [m]
+  double rotor_angle = 0;    // of the front rotor's arm from the body's x axis, to the left [rad]
   double height = 0;         // of the rotors' plane above the body's origin [m]
   double thrust_factor = 0;  // [N s2/rad2]
   double torque_factor = 0;  // [N m s2/rad2]
@@ -51,6 +55,12 @@ struct Quadrotor {
   Wrench wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
                 const Eigen::Vector3d& w) const;
   Wrench wrench(const RotorRates& rates, const Eigen::Vector3d& v, const Eigen::Vector3d& w) const;
+  // The same of a plus, whose axes are the rotors' arms.
+  Wrench wrench_along_arms(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
+                           const Eigen::Vector3d& w) const;
+  // A vector of the body's frame along the arms, and back.
+  Eigen::Vector3d along_arms(const Eigen::Vector3d& vector) const;
+  Eigen::Vector3d from_arms(const Eigen::Vector3d& vector) const;
 
   // Rates for a lift of `thrust` [N] and a torque [N m]. Under saturation it reduces first the torque about z, then
   // changes thrust (up or down), then reduces roll and pitch. Without thrust the rotors stop.
@@ -60,8 +70,25 @@ struct Quadrotor {
   double hover_drag(double thrust) const;
 };
 
+inline Eigen::Vector3d Quadrotor::along_arms(const Eigen::Vector3d& a) const {
+  const double c = std::cos(rotor_angle), s = std::sin(rotor_angle);
+  return {c * a.x() + s * a.y(), c * a.y() - s * a.x(), a.z()};
+}
+
+inline Eigen::Vector3d Quadrotor::from_arms(const Eigen::Vector3d& a) const {
+  const double c = std::cos(rotor_angle), s = std::sin(rotor_angle);
+  return {c * a.x() - s * a.y(), c * a.y() + s * a.x(), a.z()};
+}
+
 inline Wrench Quadrotor::wrench(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
                                 const Eigen::Vector3d& w) const {
+  if (rotor_angle == 0) return wrench_along_arms(rates, squares, v, w);
+  const Wrench own = wrench_along_arms(rates, squares, along_arms(v), along_arms(w));
+  return {from_arms(own.force), from_arms(own.torque)};
+}
+
+inline Wrench Quadrotor::wrench_along_arms(const RotorRates& rates, const RotorRates& squares, const Eigen::Vector3d& v,
+                                           const Eigen::Vector3d& w) const {
   const auto& [front, left, back, right] = rates;
   const auto& [f2, l2, b2, r2] = squares;
   // Sums over rotors of their rates, and of the rates times their positions.

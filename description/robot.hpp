@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "description/joint.hpp"
+#include "description/mecanum.hpp"
 #include "description/quadrotor.hpp"
+#include "description/steering.hpp"
 
 namespace muster::description {
 
@@ -62,7 +64,7 @@ struct Follower {
 };
 
 // A motor on each side that turns one wheel, or all wheels of its side at one rate (skid steer); all other parts slide
-// on the ground.
+// on the ground. Of a car it is the rear axle, of a mecanum drive the front one, whose followers have motors too.
 struct DifferentialDrive {
   std::size_t left = 0, right = 0;  // indices of the first wheels' joints
   std::vector<Follower> followers;  // none: two wheels on one axle
@@ -76,6 +78,11 @@ struct DifferentialDrive {
   double max_acceleration =
       std::numeric_limits<double>::infinity();  // of a wheel, set by the motor's controller [rad/s2]
   double friction = 0;                          // Coulomb, between wheel and ground
+  std::optional<Steering> steering;             // of a car's front wheels
+  std::optional<Mecanum> mecanum;               // four motors; the followers are the rear wheels, left and right
+
+  // True if wheels that follow others turn at their rate.
+  bool is_chained() const { return !followers.empty() && !mecanum; }
 
   // Kinematics of rigid wheels that do not slip along their way.
   double forward(double left_rate, double right_rate) const { return (left_rate + right_rate) * wheel_radius / 2; }
@@ -182,6 +189,10 @@ struct Robot {
 // Mass of the link and all that is fixed to it, in the link's frame.
 Mass rigid_mass(const Robot& robot, std::size_t link);
 std::vector<Shape> rigid_shapes(const Robot& robot, std::size_t link);
+// Shapes of the root and all that is fixed to it, but not of steered wheels; those of a steered wheel (0 left, 1 right)
+// while it is straight, with all that its kingpin turns. In the root's frame.
+std::vector<Shape> body_shapes(const Robot& robot);
+std::vector<Shape> steered_shapes(const Robot& robot, std::size_t side);
 // All shapes of the robot, every joint at zero, in the root's frame.
 std::vector<Shape> whole_shapes(const Robot& robot);
 
@@ -230,11 +241,12 @@ struct UrdfSetting {
   std::string fittings;  // a second file of the robot, with what the first lacks: <sensor>, <gazebo>, <muster>; or ""
 };
 
-// The URDF file, checked; throws std::runtime_error("file:line: what is wrong; what was expected").
+// The URDF file, or MuJoCo's (a root <mujoco>), checked; throws std::runtime_error("file:line: what is wrong; what was
+// expected").
 Robot read_robot(const std::string& path, Meshes meshes = Meshes::import, const UrdfSetting& setting = {});
 
-// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" (absolute,
-// or relative to one of the directories); throws with the name and the nearest valid one.
+// The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" or ".xml"
+// (absolute, or relative to one of the directories); throws with the name and the nearest valid one.
 std::string find_model(const std::string& model, const std::vector<std::string>& directories);
 
 // The attributes `packages` and `fittings` of a robot, with their paths found in the directories; "" stays.

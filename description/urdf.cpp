@@ -11,6 +11,7 @@
 
 #include "description/file_text.hpp"
 #include "description/mesh.hpp"
+#include "description/mjcf.hpp"
 #include "description/urdf_check.hpp"
 #include "description/urdf_inertia.hpp"
 
@@ -326,18 +327,27 @@ void check_fittings(const Source& source, const tinyxml2::XMLElement& root) {
   }
 }
 
+Robot from_urdf(const Source& source, const tinyxml2::XMLElement& root, const std::string& text, Meshes meshes,
+                const UrdfSetting& setting, Outline& outline) {
+  required(source, root, "name");
+  outline = check_urdf(source, root);
+  const auto model = parse(source, text);
+  return Converter(source, outline, *model, meshes, setting.packages).convert();
+}
+
 }  // namespace
 
 Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& setting) {
   const Source source{path}, fittings{setting.fittings};
   const std::string text = read_file(path, max_file);
   tinyxml2::XMLDocument document, more;
-  parse_urdf(source, text, document);
+  parse_xml(source, text, document);
+  const bool is_mjcf = document.RootElement()->Name() == std::string("mujoco");
+  if (!is_mjcf) document.Clear(), parse_urdf(source, text, document);
   const tinyxml2::XMLElement& root = *document.RootElement();
-  required(source, root, "name");
-  const Outline outline = check_urdf(source, root);
-  const auto model = parse(source, text);
-  Robot robot = Converter(source, outline, *model, meshes, setting.packages).convert();
+  Outline outline;
+  Robot robot =
+      is_mjcf ? read_mjcf(source, root, meshes, outline) : from_urdf(source, root, text, meshes, setting, outline);
   check_moving_masses(source, outline, robot);
   snap_axes(source, outline, robot);
   if (!setting.fittings.empty()) {
@@ -345,13 +355,13 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
     check_fittings(fittings, *more.RootElement());
     read_extensions(fittings, *more.RootElement(), robot);
   }
-  read_extensions(source, root, robot);
+  if (!is_mjcf) read_extensions(source, root, robot);  // a <sensor> of MuJoCo is another
   if (more.RootElement()) read_gazebo(fittings, *more.RootElement(), robot);
-  read_gazebo(source, root, robot);
+  if (!is_mjcf) read_gazebo(source, root, robot);
   derive_drive(source, root, robot);
-  warn_of_undriven(source, root, robot);
+  if (!is_mjcf) warn_of_undriven(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
-  warn_of_blind_lasers(source, root, robot);
+  if (!is_mjcf) warn_of_blind_lasers(source, root, robot);
   return robot;
 }
 

@@ -26,7 +26,9 @@ struct Outline {
   std::string root;
 };
 
-// Parses the text under limits on depth and tag size; no DTD, no entities, one <robot>.
+// Parses the text under limits on depth and tag size; no DTD, no entities, one root element.
+void parse_xml(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
+// The same, with <robot> as root.
 void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document);
 
 // Checks a <link> or <joint> and all inside it: only elements and attributes of URDF. <visual> is skipped.
@@ -38,6 +40,9 @@ Outline check_urdf(const Source& source, const tinyxml2::XMLElement& robot);
 // at most one drive.
 void read_muster(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 Quadrotor read_quadrotor(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
+DifferentialDrive read_differential(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+DifferentialDrive read_ackermann(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
+DifferentialDrive read_mecanum(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 LegDrive read_legs(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot);
 void read_laser(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
 void read_ball(const Source& source, const tinyxml2::XMLElement& element, Robot& robot);
@@ -66,6 +71,9 @@ void balance_wheel(const Source& source, std::size_t joint, Robot& robot);
 void complete_drive(const Source& source, const tinyxml2::XMLElement& element, DifferentialDrive& drive, Robot& robot);
 // The largest radius of the collision shapes of a joint's child that are round about its axis; 0 if there are none.
 double round_about_axle(const Robot& robot, const Joint& joint);
+
+// Torque, speed, acceleration and friction of wheels.
+void read_motors(const Source& source, const tinyxml2::XMLElement& element, DifferentialDrive& drive);
 
 // The index of a joint; the position on the body of one that turns without end about the body's +y axis.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,

@@ -48,9 +48,10 @@ Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, con
                             double y) {
   Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
   if (std::abs(middle.y() - y) > placement_tolerance) {
-    source.fail(element.GetLineNum(), tag(element) + "joint '" + robot.joints[index].name +
-                                          "' is not half a wheel_base from the body's x axis (left: +y, right: -y): "
-                                          "it is at y = " +
+    const bool is_base = std::string(element.Name()) != "ackermann" && std::string(element.Name()) != "mecanum";
+    source.fail(element.GetLineNum(), tag(element) + "joint '" + robot.joints[index].name + "' is not half a " +
+                                          (is_base ? "wheel_base" : "wheel_separation") +
+                                          " from the body's x axis (left: +y, right: -y): it is at y = " +
                                           print_number(middle.y()) + " m, expected " + print_number(y));
   }
   return middle;
@@ -102,6 +103,15 @@ std::vector<std::size_t> find_joints(const Source& source, const XMLElement& ele
   return result;
 }
 
+}  // namespace
+
+void read_motors(const Source& source, const XMLElement& element, DifferentialDrive& drive) {
+  drive.max_torque = positive(source, element, "max_torque");
+  drive.max_speed = positive(source, element, "max_speed");
+  if (element.Attribute("max_acceleration")) drive.max_acceleration = positive(source, element, "max_acceleration");
+  drive.friction = positive(source, element, "friction");
+}
+
 DifferentialDrive read_differential(const Source& source, const XMLElement& element, Robot& robot) {
   only_attributes(source, element,
                   {"left", "right", "wheel_radius", "wheel_base", "max_torque", "max_speed", "max_acceleration",
@@ -110,16 +120,11 @@ DifferentialDrive read_differential(const Source& source, const XMLElement& elem
   take_wheels(find_joints(source, element, "left", robot), find_joints(source, element, "right", robot), drive);
   drive.wheel_radius = positive(source, element, "wheel_radius");
   drive.wheel_base = positive(source, element, "wheel_base");
-  drive.max_torque = positive(source, element, "max_torque");
-  drive.max_speed = positive(source, element, "max_speed");
-  if (element.Attribute("max_acceleration")) drive.max_acceleration = positive(source, element, "max_acceleration");
-  drive.friction = positive(source, element, "friction");
+  read_motors(source, element, drive);
   if (element.Attribute("effective_base")) drive.effective_base = positive(source, element, "effective_base");
   complete_drive(source, element, drive, robot);
   return drive;
 }
-
-}  // namespace
 
 double round_about_axle(const Robot& robot, const Joint& joint) {
   double result = 0;
@@ -203,14 +208,15 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
 void read_muster(const Source& source, const XMLElement& muster, Robot& robot) {
   only_attributes(source, muster, {"restitution"});
   if (muster.Attribute("restitution")) robot.restitution = share(source, muster, "restitution");
-  const std::vector<std::string> known = {"differential", "quadrotor", "legs", "ball", "laser"};
+  const std::vector<std::string> known = {"differential", "ackermann", "mecanum", "quadrotor", "legs", "ball", "laser"};
   for (const auto* child = muster.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      source.fail(child->GetLineNum(), "<" + name +
-                                           "> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, "
-                                           "<ball> or <laser>" +
-                                           nearest(name, known));
+      source.fail(child->GetLineNum(),
+                  "<" + name +
+                      "> is not known in <muster>; expected <differential>, <ackermann>, <mecanum>, "
+                      "<quadrotor>, <legs>, <ball> or <laser>" +
+                      nearest(name, known));
     }
     if (name == "ball") {
       read_ball(source, *child, robot);
@@ -222,6 +228,8 @@ void read_muster(const Source& source, const XMLElement& muster, Robot& robot) {
     }
     if (robot.drive || robot.quadrotor || robot.legs) source.fail(child->GetLineNum(), "has a second drive");
     if (name == "differential") robot.drive = read_differential(source, *child, robot);
+    if (name == "ackermann") robot.drive = read_ackermann(source, *child, robot);
+    if (name == "mecanum") robot.drive = read_mecanum(source, *child, robot);
     if (name == "quadrotor") robot.quadrotor = read_quadrotor(source, *child, robot);
     if (name == "legs") robot.legs = read_legs(source, *child, robot);
   }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "description/file_text.hpp"
 #include "description/urdf_check.hpp"
 
@@ -49,10 +51,20 @@ void check_quadrotor(const Source& source, int line, const Quadrotor& drive, con
 
 Quadrotor read_quadrotor(const Source& source, const XMLElement& element, const Robot& robot) {
   only_attributes(source, element,
-                  {"arm", "height", "thrust_factor", "torque_factor", "drag_factor", "max_speed", "lag_up", "lag_down",
+                  {"arm", "rotor_angle", "height", "thrust_factor", "torque_factor", "drag_factor", "max_speed", "lag_up", "lag_down",
                    "attitude_p", "attitude_i", "attitude_d", "yaw_p", "yaw_i"});
   Quadrotor drive;
   drive.arm = positive(source, element, "arm");
+  if (const char* text = element.Attribute("rotor_angle")) {
+    constexpr double half_turn = 3.14159265358979323846;
+    const auto value = parse_number(text);
+    if (!value || std::abs(*value) > half_turn) {
+      source.fail(element.GetLineNum(), std::string("<quadrotor> rotor_angle=\"") + text +
+                                            "\" is wrong; expected an angle from -pi to pi [rad]: 0 is a plus, "
+                                            "0.7853981633974483 an X");
+    }
+    drive.rotor_angle = *value;
+  }
   drive.height = from_zero(source, element, "height");
   drive.thrust_factor = positive(source, element, "thrust_factor");
   drive.torque_factor = positive(source, element, "torque_factor");

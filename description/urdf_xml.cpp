@@ -133,7 +133,7 @@ void refuse_xacro(const Source& source, const XMLElement& element) {
 
 }  // namespace
 
-void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
+void parse_xml(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
   scan_tags(source, text);
   const tinyxml2::XMLError error = document.Parse(text.data(), text.size());
   const int line = std::max(1, document.ErrorLineNum());
@@ -143,10 +143,16 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
                             error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
   if (has_all_tags) check_pairs(source, text);
   if (error != tinyxml2::XML_SUCCESS) source.fail(line, "is not XML: " + words(document));
+  if (!document.RootElement()) source.fail(1, "is not URDF; expected <robot>");
+  if (const auto* second = document.RootElement()->NextSiblingElement())
+    source.fail(second->GetLineNum(), "has a second root element");
+}
+
+void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
+  parse_xml(source, text, document);
   const XMLElement* root = document.RootElement();
   if (!root || root->Name() != std::string("robot"))
     source.fail(root ? root->GetLineNum() : 1, "is not URDF; expected <robot>");
-  if (const auto* second = root->NextSiblingElement()) source.fail(second->GetLineNum(), "has a second root element");
   refuse_xacro(source, *root);
 }
 

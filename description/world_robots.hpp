@@ -54,6 +54,15 @@ class WorldRobots {
     return robot && robot->drive ? &*robot->drive : nullptr;
   }
 
+  bool any_steers() const {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [](const auto& robot) { return robot && robot->drive && robot->drive->steering; });
+  }
+  bool any_mecanum() const {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [](const auto& robot) { return robot && robot->drive && robot->drive->mecanum; });
+  }
+
   const LegDrive* legs_of(double model) const {
     const Robot* robot = of(model);
     return robot && robot->legs ? &*robot->legs : nullptr;

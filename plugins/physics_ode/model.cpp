@@ -109,10 +109,14 @@ RobotModel::RobotModel(const Robot& robot) {
       blocks.push_back(block_of(shape, wheels.back().frame, true));
     }
   }
+  for (std::size_t side = 0; drive.steering && side < 2; ++side) {
+    for (const Shape& shape : steered_shapes(robot, side))
+      blocks.push_back(block_of(shape, Isometry3d::Identity(), true));
+  }
 }
 
 void RobotModel::take_shapes(const Robot& robot, std::size_t link, int limb) {
-  for (const Shape& shape : rigid_shapes(robot, link)) {
+  for (const Shape& shape : link == 0 ? body_shapes(robot) : rigid_shapes(robot, link)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry)) {
       balls.push_back({shape.pose.translation(), sphere->radius, limb});
     } else {

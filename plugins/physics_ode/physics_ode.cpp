@@ -1,6 +1,7 @@
 // physics.ode: ODE on the blackboard.
 #include <algorithm>
 #include <cstring>
+#include <muster/ground_drives.hpp>
 #include <muster/plugin.hpp>
 #include <optional>
 
@@ -58,9 +59,10 @@ struct PhysicsOde {
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr auto abilities =
-      description::Ability::wheels | description::Ability::rotors | description::Ability::height |
-      description::Ability::tilting | description::Ability::hinges | description::Ability::sliders |
-      description::Ability::balls | description::Ability::bouncing | description::Ability::pushed;
+      description::Ability::wheels | description::Ability::steering | description::Ability::mecanum |
+      description::Ability::rotors | description::Ability::height | description::Ability::tilting |
+      description::Ability::hinges | description::Ability::sliders | description::Ability::balls |
+      description::Ability::bouncing | description::Ability::pushed;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),
@@ -97,6 +99,12 @@ struct PhysicsOde {
     if (robots.any_has_limbs()) {
       limbs = s.write<Limbs>("robot/*/limbs");
       hung = s.write<Hung>("robot/*/hung");
+    }
+    if (robots.any_steers()) steering = s.read_if_any<SteeringAngle>("robot/*/steering");
+    if (robots.any_mecanum()) {
+      rear_drive = s.read_if_any<Drive>("robot/*/rear_drive");
+      rear_wheels = s.write<Wheels>("robot/*/rear_wheels");
+      rear_hinged = s.write<Hinged>("robot/*/rear_hinged");
     }
     if (flies) {
       rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
@@ -147,6 +155,7 @@ struct PhysicsOde {
       k[wheels][i] = k.last(wheels)[i];
       k[hinged][i] = k.last(hinged)[i];
       if (flies) k[rotors][i] = k.last(rotors)[i];
+      if (rear_wheels) k[*rear_wheels][i] = k.last(*rear_wheels)[i], k[*rear_hinged][i] = k.last(*rear_hinged)[i];
       if (limbs) k[*limbs][i] = k.last(*limbs)[i], k[*hung][i] = k.last(*hung)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (!k.alive("robot", i)) continue;
@@ -201,6 +210,14 @@ struct PhysicsOde {
       if (row < asked.size()) {
         commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
       }
+      if (rear_drive && row < k[*rear_drive].size()) {
+        const Drive& rear = k[*rear_drive][row];
+        commands[i].rear = {rear.left, rear.right}, commands[i].rear_rate = {rear.left_rate, rear.right_rate};
+      }
+      if (steering && row < k[*steering].size()) {
+        const SteeringAngle& now_steered = k[*steering][row];
+        commands[i].steering = now_steered.angle, commands[i].steering_rate = now_steered.rate;
+      }
       if (flies && row < k[rotor_drive].size()) {
         const RotorDrive& r = k[rotor_drive][row];
         commands[i].rotors = {r.front, r.left, r.back, r.right};
@@ -227,6 +244,11 @@ struct PhysicsOde {
                       {w.left_rate, w.right_rate},
                       k.last(hinged)[row].wheel};
     if (limbs) s.limbs = k.last(*limbs)[row], s.hung = k.last(*hung)[row].limb;
+    if (rear_wheels) {
+      const Wheels& rear = k.last(*rear_wheels)[row];
+      s.rear_angle = {rear.left, rear.right}, s.rear_rate = {rear.left_rate, rear.right_rate};
+      s.rear_hinged = k.last(*rear_hinged)[row].wheel;
+    }
     if (flies) {
       const Rotors& r = k.last(rotors)[row];
       s.rotors = {r.front, r.left, r.back, r.right};
@@ -241,6 +263,10 @@ struct PhysicsOde {
     k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
     k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
     k[hinged][row].wheel = s.hinged;
+    if (rear_wheels) {
+      k[*rear_wheels][row] = {s.rear_angle[0], s.rear_angle[1], s.rear_rate[0], s.rear_rate[1]};
+      k[*rear_hinged][row].wheel = s.rear_hinged;
+    }
     if (limbs) k[*limbs][row] = s.limbs, k[*hung][row].limb = s.hung;
     if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
   }
@@ -262,6 +288,10 @@ struct PhysicsOde {
   Out<Hinged> hinged;
   std::optional<Out<Limbs>> limbs;  // where a robot has any
   std::optional<Out<Hung>> hung;
+  std::optional<In<SteeringAngle>> steering;  // where a robot has any
+  std::optional<In<Drive>> rear_drive;        // where a robot has rollers
+  std::optional<Out<Wheels>> rear_wheels;
+  std::optional<Out<Hinged>> rear_hinged;
   Out<Complained> complained;
   Made made;
   std::unique_ptr<ode::World> world;

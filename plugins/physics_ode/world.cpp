@@ -16,10 +16,8 @@ namespace {
 constexpr double push_out = 0.2;        // highest speed out of penetrations [m/s]
 constexpr double fastest = 1e3;         // [m/s], [rad/s]: beyond, the motion has blown up
 constexpr double thinnest_wall = 0.02;  // [m]: a robot may step through less without a contact
-constexpr int most_contacts = 8;        // of two shapes: the most that two boxes make
 constexpr double smooth = 0, as_the_other = std::numeric_limits<double>::infinity();  // of a surface
-constexpr double sunk = 1e-4;            // [m] of a skid steer's wheels under its weight
-constexpr double slowest_bounce = 0.02;  // [m/s]
+constexpr double sunk = 1e-4;  // [m] of a skid steer's wheels under its weight
 
 // Collision categories. Robots are spaces of their own, whose parts do not collide.
 constexpr unsigned long ground = 1, part = 2, wall = 4, tyre = 8;
@@ -36,9 +34,7 @@ void set_quaternion(dBodyID body, const Quaterniond& q) {
   dBodySetQuaternion(body, values);
 }
 
-Vector3d vector(const dReal* values) { return {values[0], values[1], values[2]}; }
 std::array<double, 3> array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Quaterniond quaternion(const dReal* values) { return {values[0], values[1], values[2], values[3]}; }
 
 // Position of a wheel's centre of mass in the body's frame, at an angle of the wheel.
 Vector3d centre(const Wheel& wheel, double angle) {
@@ -114,7 +110,7 @@ dBodyID World::add_body(const description::Mass& mass, const Isometry3d& frame) 
 // Hinges a wheel to the body, with its motor; a wheel that follows another is held at its rate as by a chain.
 void World::add_wheel(Robot& robot, std::size_t w) const {
   const Wheel& wheel = robot.model.wheels[w];
-  const bool follows = w >= 2;
+  const bool follows = w >= 2 && robot.model.drive.is_chained();
   const Vector3d anchor = wheel.frame.translation(), axis = wheel.frame.linear() * wheel.axis;
   dBodyID body = add_body(wheel.mass, wheel.frame);
   dJointID hinge = dJointCreateHinge(world_.get(), nullptr);
@@ -148,7 +144,7 @@ void World::add(Robot& robot) {
 }
 
 // `limbs`: their present frames.
-void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs) {
+void World::add_shapes(Robot& robot, const std::vector<Isometry3d>& limbs) {
   dSpaceID own = dSimpleSpaceCreate(space_.get());
   const auto fix = [&](dGeomID geom, dBodyID body, const Isometry3d& pose) {  // in the world, where bodies are now
     const Quaterniond q(pose.linear());
@@ -163,11 +159,20 @@ void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs)
     dGeomID sphere = dCreateSphere(nullptr, robot.model.drive.wheel_radius);
     fix(add_geom(sphere, tyre, ground, robot.model.drive.friction, robot.model.restitution), robot.wheel[w],
         robot.model.wheels[w].frame);
-    if (robot.wheel.size() <= 2) continue;
-    const double share = robot.model.mass / static_cast<double>(robot.wheel.size());
-    surfaces_.back().stiffness = share * gravity / sunk;
-    surfaces_.back().grip = robot.model.drive.friction * share * gravity;
-    surfaces_.back().damping = 2 * std::sqrt(surfaces_.back().stiffness * share);
+    if (robot.wheel.size() <= 2 && !robot.model.drive.steering) continue;
+    soften(robot, robot.model.mass / static_cast<double>(std::max<std::size_t>(4, robot.wheel.size())));
+    if (!robot.model.drive.mecanum) continue;
+    surfaces_.back().frame = robot.body;
+    surfaces_.back().along = description::Mecanum::hold(w);
+  }
+  for (std::size_t side = 0; robot.model.has_wheels && robot.model.drive.steering && side < 2; ++side) {
+    const description::Steering& car = *robot.model.drive.steering;
+    robot.steered[side] =
+        add_geom(dCreateSphere(nullptr, car.radius), tyre, ground, robot.model.drive.friction, robot.model.restitution);
+    fix(robot.steered[side], robot.body, Isometry3d(Eigen::Translation3d(car.kingpin[side] + car.hub[side])));
+    soften(robot, robot.model.mass / 4);
+    surfaces_.back().frame = robot.body;
+    surfaces_.back().along = Vector3d::UnitY();
   }
   const auto fix_part = [&](dGeomID geom, int limb, const Isometry3d& pose) {
     limb < 0 ? fix(geom, robot.body, pose) : fix(geom, robot.limb[limb], limbs[limb] * pose);
@@ -185,12 +190,20 @@ void World::add_shapes(const Robot& robot, const std::vector<Isometry3d>& limbs)
   }
 }
 
+// The last surface: a wheel that carries this share of the robot's mass.
+void World::soften(const Robot& robot, double share) {
+  Surface& wheel = surfaces_.back();
+  wheel.stiffness = share * gravity / sunk;
+  wheel.grip = robot.model.drive.friction * share * gravity;
+  wheel.damping = 2 * std::sqrt(wheel.stiffness * share);
+}
+
 // Surfaces are numbered in the order of creation: contacts are made in that order, not in ODE's.
 dGeomID World::add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction,
                         double restitution) {
   dGeomSetCategoryBits(geom, category);
   dGeomSetCollideBits(geom, meets);
-  surfaces_.push_back({surfaces_.size(), friction, restitution, 0, 0, 0});
+  surfaces_.push_back({surfaces_.size(), friction, restitution});
   dGeomSetData(geom, &surfaces_.back());
   return geom;
 }
@@ -220,6 +233,8 @@ int World::step(double dt, const std::vector<Command>& commands, std::vector<Rob
   for (int k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       if (robots_[i].model.has_wheels) ask(robots_[i], commands[i], (k + 0.5) * h);
+      if (robots_[i].model.has_wheels && robots_[i].model.drive.steering)
+        steer(robots_[i], commands[i].steering + (k + 0.5) * h * commands[i].steering_rate);
       if (robots_[i].model.rotors) lift(robots_[i], commands[i], h, states[i]);
     }
     touch();
@@ -227,6 +242,8 @@ int World::step(double dt, const std::vector<Command>& commands, std::vector<Rob
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       for (int w = 0; robots_[i].model.has_wheels && w < 2; ++w)
         states[i].angle[w] += h * dJointGetHingeAngleRate(robots_[i].hinge[w]);
+      for (int w = 0; robots_[i].model.has_wheels && robots_[i].model.drive.mecanum && w < 2; ++w)
+        states[i].rear_angle[w] += h * dJointGetHingeAngleRate(robots_[i].hinge[2 + w]);
     }
   }
   for (std::size_t i = 0; i < robots_.size(); ++i) read(robots_[i], states[i]);
@@ -254,9 +271,11 @@ void World::place(const Robot& robot, const RobotState& s) {
   for (std::size_t k = 0; k < robot.wheel.size(); ++k) {
     const Wheel& wheel = robot.model.wheels[k];
     const auto side = static_cast<std::size_t>(wheel.side);
-    put_hung(robot.wheel[k], k < 2 && is_known(s.hinged[k])
-                                 ? s.hinged[k]
-                                 : as_hinged(wheel, robot.model.body.centre, own_spin, s.angle[side], s.rate[side]));
+    const bool is_rear = k >= 2 && robot.model.drive.mecanum;
+    const HungBody kept = k < 2 ? s.hinged[k] : is_rear ? s.rear_hinged[side] : HungBody{};
+    const double angle = is_rear ? s.rear_angle[side] : s.angle[side],
+                 rate = is_rear ? s.rear_rate[side] : s.rate[side];
+    put_hung(robot.wheel[k], is_known(kept) ? kept : as_hinged(wheel, robot.model.body.centre, own_spin, angle, rate));
   }
   if (robot.model.limbs.empty()) return;
   const std::vector<HungBody> wanted = as_hung(robot.model, s.limbs, own_spin);
@@ -264,9 +283,22 @@ void World::place(const Robot& robot, const RobotState& s) {
 }
 
 void World::ask(const Robot& robot, const Command& command, double at) const {
-  const double rates[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
-  for (int w = 0; w < 2; ++w) {
+  const double rates[] = {command.left + at * command.left_rate, command.right + at * command.right_rate,
+                          command.rear[0] + at * command.rear_rate[0], command.rear[1] + at * command.rear_rate[1]};
+  const int motors = robot.model.drive.mecanum ? 4 : 2;
+  for (int w = 0; w < motors; ++w) {
     dJointSetAMotorParam(robot.motor[w], dParamVel, robot.model.drive.limited_rate(rates[w]));
+  }
+}
+
+// The front wheels of a car are parts of its body: only where and along what they hold the ground changes.
+void World::steer(const Robot& robot, double angle) {
+  const description::Steering& car = *robot.model.drive.steering;
+  for (int side = 0; side < 2; ++side) {
+    dGeomID wheel = robot.steered[static_cast<std::size_t>(side)];
+    const Vector3d place = car.middle(side, angle) - robot.model.body.centre;
+    dGeomSetOffsetPosition(wheel, place.x(), place.y(), place.z());
+    static_cast<Surface*>(dGeomGetData(wheel))->along = car.axle(side, angle);
   }
 }
 
@@ -282,73 +314,6 @@ void World::lift(const Robot& robot, const Command& command, double h, RobotStat
   dBodyAddRelForce(robot.body, force.x(), force.y(), force.z());
   dBodyAddRelTorque(robot.body, about_centre.x(), about_centre.y(), about_centre.z());
   state.rotors = rotors.later(state.rotors, command.rotors, rotors.decay(h));
-}
-
-void World::near(void* world, dGeomID a, dGeomID b) {
-  if (dGeomIsSpace(a) || dGeomIsSpace(b)) return dSpaceCollide2(a, b, world, near);
-  const auto* first = static_cast<const Surface*>(dGeomGetData(a));
-  const auto* second = static_cast<const Surface*>(dGeomGetData(b));
-  const bool ordered = first->number < second->number;
-  auto& pairs = static_cast<World*>(world)->pairs_;
-  pairs.push_back(ordered ? Pair{a, b, first, second} : Pair{b, a, second, first});
-}
-
-// Contacts of the next step. ODE finds pairs in an order that depends on recent motion: they are sorted.
-void World::touch() {
-  dJointGroupEmpty(contacts_.get());
-  pairs_.clear();
-  dSpaceCollide(space_.get(), this, near);
-  std::sort(pairs_.begin(), pairs_.end());
-  for (const Pair& pair : pairs_) touch(pair);
-}
-
-// A skid steer's wheel. Its contact is as soft as to share the weight among more than three wheels, which rigid ones do
-// not determine. Friction is Coulomb's law, linear about the slip before the step: its bound along that slip, and
-// across it the bound times the share that the velocity there has of the slip. A pyramid would hold the direction of
-// the slip.
-void World::carry_and_slip(const Pair& pair, dContact& contact) const {
-  const Surface& wheel = pair.first->stiffness > 0 ? *pair.first : *pair.second;
-  const double stiff = h_ * wheel.stiffness + wheel.damping;
-  contact.surface.mode |= dContactSoftERP | dContactSoftCFM;
-  contact.surface.soft_erp = h_ * wheel.stiffness / stiff;
-  contact.surface.soft_cfm = 1 / stiff;
-  Vector3d slip = Vector3d::Zero();
-  const auto add = [&](dGeomID geom, double sign) {
-    dBodyID body = dGeomGetBody(geom);
-    if (!body) return;
-    dVector3 velocity;
-    const dReal* at = contact.geom.pos;
-    dBodyGetPointVel(body, at[0], at[1], at[2], velocity);
-    slip += sign * vector(velocity);
-  };
-  add(pair.a, 1);
-  add(pair.b, -1);
-  const Vector3d normal = vector(contact.geom.normal);
-  slip -= normal * normal.dot(slip);
-  constexpr double slowest = 1e-6;  // [m/s]: below, it rolls
-  const double speed = slip.norm();
-  if (speed < slowest) return;
-  slip /= speed;
-  contact.surface.mode |= dContactFDir1 | dContactSlip2;
-  contact.surface.slip2 = speed / wheel.grip;
-  for (int k = 0; k < 3; ++k) contact.fdir1[k] = slip[k];
-}
-
-void World::touch(const Pair& pair) {
-  dContact contact[most_contacts];
-  const int count = dCollide(pair.a, pair.b, most_contacts, &contact[0].geom, sizeof contact[0]);
-  for (int i = 0; i < count; ++i) {
-    contact[i].surface.mode = dContactApprox1;  // friction's bound follows the normal force
-    contact[i].surface.mu = std::min(pair.first->friction, pair.second->friction);
-    if (const double share = std::min(pair.first->restitution, pair.second->restitution); share > 0) {
-      contact[i].surface.mode |= dContactBounce;
-      contact[i].surface.bounce = share;
-      contact[i].surface.bounce_vel = slowest_bounce;
-    }
-    if (pair.first->stiffness > 0 || pair.second->stiffness > 0) carry_and_slip(pair, contact[i]);
-    dJointID joint = dJointCreateContact(world_.get(), contacts_.get(), &contact[i]);
-    dJointAttach(joint, dGeomGetBody(pair.a), dGeomGetBody(pair.b));
-  }
 }
 
 void World::advance(double h, unsigned long seed) {
@@ -376,6 +341,9 @@ void World::read(const Robot& robot, RobotState& s) {
   for (int k = 0; robot.model.has_wheels && k < 2; ++k) {
     s.rate[k] = dJointGetHingeAngleRate(robot.hinge[k]);
     s.hinged[k] = hung(robot.wheel[k]);
+    if (!robot.model.drive.mecanum) continue;
+    s.rear_rate[k] = dJointGetHingeAngleRate(robot.hinge[2 + k]);
+    s.rear_hinged[k] = hung(robot.wheel[2 + k]);
   }
   for (std::size_t k = 0; k < robot.model.limbs.size(); ++k) s.hung[k] = hung(robot.limb[k]);
   read_limbs(robot, s);

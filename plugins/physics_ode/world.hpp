@@ -16,6 +16,9 @@ namespace muster::ode {
 
 constexpr double gravity = 9.81;  // [m/s2]
 
+inline Eigen::Vector3d vector(const dReal* values) { return {values[0], values[1], values[2]}; }
+inline Eigen::Quaterniond quaternion(const dReal* values) { return {values[0], values[1], values[2], values[3]}; }
+
 struct Settings {
   double step = 0.001;           // the longest inside a tick [s]
   bool quick = false;            // dWorldQuickStep instead of dWorldStep
@@ -34,9 +37,11 @@ struct Settings {
 
 // Commanded wheel rates at the tick's start, and their slopes over the tick; rotors' rates held over it.
 struct Command {
-  double left, right;              // [rad/s]
-  double left_rate, right_rate;    // [rad/s2]
-  std::array<double, 4> rotors{};  // front, left, back, right [rad/s]
+  double left, right;                         // [rad/s]
+  double left_rate, right_rate;               // [rad/s2]
+  std::array<double, 4> rotors{};             // front, left, back, right [rad/s]
+  std::array<double, 2> rear{}, rear_rate{};  // wheels of a mecanum drive [rad/s], [rad/s2]
+  double steering = 0, steering_rate = 0;     // of a car [rad], [rad/s]
 };
 
 struct RobotState {
@@ -48,6 +53,9 @@ struct RobotState {
   std::array<double, 4> rotors{};  // present rates [rad/s]
   Limbs limbs{};                   // present states
   std::array<HungBody, Limbs::most> hung{};
+  // Of the rear wheels of a mecanum drive.
+  std::array<double, 2> rear_angle{}, rear_rate{};
+  std::array<HungBody, 2> rear_hinged{};
 };
 
 struct NamedRobot {
@@ -75,13 +83,17 @@ class World {
     std::vector<dBodyID> wheel{};
     std::vector<dJointID> hinge{}, motor{};  // the motor of a wheel that follows another is the chain to that
     std::array<dBodyID, Limbs::most> limb{};
+    std::array<dGeomID, 2> steered{};  // wheels of a car
   };
   struct Surface {
     std::size_t number;  // in the order in which shapes were added
     double friction, restitution;
-    // Of a wheel of a skid steer, else 0: its contact's spring and damper along the normal [N/m], [N s/m], and
+    // Of one of more than two wheels, else 0: its contact's spring and damper along the normal [N/m], [N s/m], and
     // friction's bound under its share of the weight [N].
     double stiffness = 0, damping = 0, grip = 0;
+    // Of a roller or a free wheel: friction acts along this direction of the frame's body only, else null.
+    dBodyID frame = nullptr;
+    Eigen::Vector3d along = Eigen::Vector3d::Zero();
   };
   struct Pair {
     dGeomID a, b;
@@ -94,10 +106,12 @@ class World {
   void add(Robot& robot);
   void add_wheel(Robot& robot, std::size_t w) const;
   dBodyID add_body(const description::Mass& mass, const Eigen::Isometry3d& frame) const;
-  void add_shapes(const Robot& robot, const std::vector<Eigen::Isometry3d>& limbs);
+  void add_shapes(Robot& robot, const std::vector<Eigen::Isometry3d>& limbs);
   dGeomID add_geom(dGeomID geom, unsigned long category, unsigned long meets, double friction, double restitution);
   static void place(const Robot& robot, const RobotState& state);
   void ask(const Robot& robot, const Command& command, double at) const;
+  static void steer(const Robot& robot, double angle);
+  void soften(const Robot& robot, double share);
   static void lift(const Robot& robot, const Command& command, double h, RobotState& state);
   void touch();
   void touch(const Pair& pair);
@@ -105,6 +119,7 @@ class World {
   static void read(const Robot& robot, RobotState& state);
   static void read_limbs(const Robot& robot, RobotState& state);
   void carry_and_slip(const Pair& pair, dContact& contact) const;
+  static void hold(const Surface& wheel, dContact& contact);
   static void near(void* world, dGeomID a, dGeomID b);
 
   Library library_;

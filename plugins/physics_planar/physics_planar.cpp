@@ -1,5 +1,6 @@
 // physics.planar: kinematics for thousands of robots.
 #include <muster/plugin.hpp>
+#include <optional>
 
 #include "description/world_robots.hpp"
 #include "planar.hpp"
@@ -21,7 +22,8 @@ struct PhysicsPlanar {
       "Not modelled: masses, forces, slip of single wheels, anything above the plane; height and tilt stay as found.\n"
       "Robots drive through walls and each other; a world with walls gives a warning unless `through_walls` says so.";
   static constexpr auto phase = MUSTER_PHYSICS;
-  static constexpr auto abilities = description::Ability::wheels;
+  static constexpr auto abilities =
+      description::Ability::wheels | description::Ability::steering | description::Ability::mecanum;
   static constexpr auto cannot_hold = "changes of height, roll and pitch, and wheel slip";
   static constexpr Param params[] = {real("acceleration", 7.848, 1e-6, 1e6, "m/s2",
                                           "bound on the change of velocity; by default friction 0.8 times 9.81 m/s2"),
@@ -36,6 +38,11 @@ struct PhysicsPlanar {
         wheels(s.write<Wheels>("robot/*/wheels")),
         model(s.write<Model>("robot/*/body")) {
     robots.require(abilities, s);
+    if (robots.any_steers()) steering = s.read_if_any<SteeringAngle>("robot/*/steering");
+    if (robots.any_mecanum()) {
+      rear_drive = s.read_if_any<Drive>("robot/*/rear_drive");
+      rear_wheels = s.write<Wheels>("robot/*/rear_wheels");
+    }
     const bool any_walls = s.host()->rows(s.host(), "wall") > 0 && robots.size() > 0;
     if (any_walls && s.param("through_walls") == 0)
       s.warn("self",
@@ -47,15 +54,20 @@ struct PhysicsPlanar {
     const auto asked = k[drive];
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
       planar::Body body{k.last(pose)[i], k.last(twist)[i], k.last(wheels)[i]};
+      if (rear_wheels) body.rear = k.last(*rear_wheels)[i];
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       if (k.alive("robot", i)) {
         const auto* motors = robots.drive_of(k[model][i].model);
         if (!motors) throw BadInput("robot '" + std::string(k.name("robot", i)) + "' has no model");
-        body = planar::stepped(body, i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}, *motors, k[acceleration], k.dt());
+        planar::Asked of_robot{i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}};
+        if (steering && i < k[*steering].size()) of_robot.steering = k[*steering][i];
+        if (rear_drive && i < k[*rear_drive].size()) of_robot.rear = k[*rear_drive][i];
+        body = planar::stepped(body, of_robot, *motors, k[acceleration], k.dt());
       }
       k[pose][i] = body.pose;
       k[twist][i] = body.twist;
       k[wheels][i] = body.wheels;
+      if (rear_wheels) k[*rear_wheels][i] = body.rear;
     }
   }
 
@@ -66,6 +78,9 @@ struct PhysicsPlanar {
   Out<Twist> twist;
   Out<Wheels> wheels;
   Out<Model> model;
+  std::optional<In<SteeringAngle>> steering;  // where a robot has any
+  std::optional<In<Drive>> rear_drive;
+  std::optional<Out<Wheels>> rear_wheels;
 };
 
 }  // namespace

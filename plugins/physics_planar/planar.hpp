@@ -1,8 +1,9 @@
-// A robot on two wheels as a point with a heading: exact arcs, and a bound on its acceleration.
+// A robot on wheels as a point with a heading: exact arcs, and a bound on its acceleration.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <muster/ground_drives.hpp>
 #include <muster/tables.hpp>
 
 #include "description/robot.hpp"
@@ -13,6 +14,14 @@ struct Body {
   Pose pose;
   Twist twist;
   Wheels wheels;
+  Wheels rear{};  // of a mecanum drive
+};
+
+// Commands of a tick: of wheels, of a mecanum drive's rear ones, and of a car's steering.
+struct Asked {
+  Drive drive;
+  Drive rear{0, 0, 0, 0};
+  SteeringAngle steering{0, 0};
 };
 
 // Heading of the body's x axis, from east to north [rad].
@@ -28,19 +37,50 @@ inline void turn(Pose& p, double angle) {
   p.qw = q[0] / size, p.qx = q[1] / size, p.qy = q[2] / size, p.qz = q[3] / size;
 }
 
-// One step of dt [s] with the commanded wheel rates at its middle. The velocity approaches theirs, changing by at most
-// acceleration [m/s2] times dt. The bound on the turn rate is that of a wheel on its circle about the body's middle.
-inline Body stepped(Body b, const Drive& asked, const description::DifferentialDrive& drive, double acceleration,
-                    double dt) {
-  const double left = drive.limited_rate(asked.left + 0.5 * dt * asked.left_rate);
-  const double right = drive.limited_rate(asked.right + 0.5 * dt * asked.right_rate);
+// The motion that wheels make which do not slip, in the body's frame, with the commands half a step ahead.
+inline description::PlanarMotion rolled(const Asked& asked, const description::DifferentialDrive& drive, double dt) {
+  const auto rate = [&](double start, double slope) { return drive.limited_rate(start + 0.5 * dt * slope); };
+  const double left = rate(asked.drive.left, asked.drive.left_rate);
+  const double right = rate(asked.drive.right, asked.drive.right_rate);
+  if (drive.mecanum) {
+    return drive.mecanum->motion(
+        {left, right, rate(asked.rear.left, asked.rear.left_rate), rate(asked.rear.right, asked.rear.right_rate)});
+  }
+  const double v = drive.forward(left, right);
+  if (!drive.steering) return {v, 0, drive.turn(left, right)};
+  const double w = drive.steering->turn(v, asked.steering.angle + 0.5 * dt * asked.steering.rate);
+  return {v, -drive.steering->rear_axle * w, w};  // the rear axle does not go sideways
+}
 
+// Turns wheels with the body's motion for dt [s].
+inline void turn_wheels(const description::PlanarMotion& motion, const description::DifferentialDrive& drive, double dt,
+                        Body& b) {
+  const auto turn = [dt](Wheels& wheels, double left, double right) {
+    wheels.left_rate = left, wheels.right_rate = right;
+    wheels.left += dt * left;
+    wheels.right += dt * right;
+  };
+  if (drive.mecanum) {
+    const auto rates = drive.mecanum->rates(motion);
+    turn(b.wheels, rates[0], rates[1]);
+    turn(b.rear, rates[2], rates[3]);
+  } else {
+    turn(b.wheels, drive.left_rate(motion.vx, motion.w), drive.right_rate(motion.vx, motion.w));
+  }
+}
+
+// One step of dt [s] with the commands at its middle. The velocity approaches that of wheels that do not slip, changing
+// by at most acceleration [m/s2] times dt. The bound on the turn rate is that of a wheel on its circle about the body's
+// middle.
+inline Body stepped(Body b, const Asked& asked, const description::DifferentialDrive& drive, double acceleration,
+                    double dt) {
+  const description::PlanarMotion goal = rolled(asked, drive, dt);
   const double most_turn = acceleration * dt / (drive.wheel_base / 2);
-  const double w = b.twist.wz + std::clamp(drive.turn(left, right) - b.twist.wz, -most_turn, most_turn);
+  const double w = b.twist.wz + std::clamp(goal.w - b.twist.wz, -most_turn, most_turn);
   const double middle = heading(b.pose) + 0.5 * dt * w;
   const double ex = std::cos(middle), ey = std::sin(middle);
 
-  double dx = drive.forward(left, right) * ex - b.twist.vx, dy = drive.forward(left, right) * ey - b.twist.vy;
+  double dx = goal.vx * ex - goal.vy * ey - b.twist.vx, dy = goal.vx * ey + goal.vy * ex - b.twist.vy;
   const double change = std::hypot(dx, dy);
   const double share = change > acceleration * dt ? acceleration * dt / change : 1;
   const double vx = b.twist.vx + share * dx, vy = b.twist.vy + share * dy;
@@ -52,12 +92,7 @@ inline Body stepped(Body b, const Drive& asked, const description::DifferentialD
   b.pose.y += dt * chord * vy;
   turn(b.pose, dt * w);
   b.twist = {vx, vy, 0, 0, 0, w};
-
-  const double v = vx * ex + vy * ey;  // the wheels roll: speed of the body along its heading
-  b.wheels.left_rate = drive.left_rate(v, w);
-  b.wheels.right_rate = drive.right_rate(v, w);
-  b.wheels.left += dt * b.wheels.left_rate;
-  b.wheels.right += dt * b.wheels.right_rate;
+  turn_wheels({vx * ex + vy * ey, vy * ex - vx * ey, w}, drive, dt, b);  // the wheels roll
   return b;
 }
 

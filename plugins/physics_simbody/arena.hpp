@@ -10,7 +10,7 @@ namespace muster::simbody {
 struct Arena {
   explicit Arena(const std::vector<NamedRobot>& robots, LegModel legs = LegModel::as_described) : crew(robots, legs) {
     make(placed);
-    if (crew.any_is_articulated()) make(placed_with_legs);
+    if (crew.any_has_many_joints()) make(placed_with_legs);
   }
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
@@ -38,6 +38,9 @@ struct Arena {
       now.inertia.inverse.setIdentity();
       now.inertia.mass.template topLeftCorner<unknowns, unknowns>() = crew[i].mass;
       now.inertia.inverse.template topLeftCorner<unknowns, unknowns>() = crew[i].inverse_mass;
+      if constexpr (N == unknowns_with_legs) {
+        if (crew[i].with_four_wheels) now.inertia = *crew[i].with_four_wheels;
+      }
       now.body.inertia = &now.inertia;
       now.body.previous.setZero();
     }

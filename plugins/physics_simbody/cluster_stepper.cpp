@@ -19,7 +19,8 @@ constexpr double longest_slide = 0.005;
 
 // True if the commanded acceleration of the wheels needs more than half of the available friction.
 bool may_slide(const RobotModel& model, const Command& command) {
-  const double fastest = std::max(std::abs(command.left_rate), std::abs(command.right_rate));
+  const double fastest = std::max({std::abs(command.left_rate), std::abs(command.right_rate),
+                                   std::abs(command.rear_rate[0]), std::abs(command.rear_rate[1])});
   return model.has_wheels && fastest * model.drive.wheel_radius > 0.5 * model.drive.friction * gravity;
 }
 
@@ -45,7 +46,7 @@ Extent extent_of(const RobotModel& model, const RobotState& state, double time, 
 }
 
 ClusterStepper::ClusterStepper(Arena& arena) : arena_(arena), stepper_(arena) {
-  if (arena.crew.any_is_articulated()) stepper_with_legs_ = std::make_unique<StepperOf<unknowns_with_legs>>(arena);
+  if (arena.crew.any_has_many_joints()) stepper_with_legs_ = std::make_unique<StepperOf<unknowns_with_legs>>(arena);
 }
 
 Count ClusterStepper::count() const {
@@ -119,14 +120,14 @@ int ClusterStepper::parts_if_it_slides(const Group& group, double h, const std::
 
 void ClusterStepper::advance(const Group& group, double h, double at, const std::vector<Command>& commands,
                              std::vector<RobotState>& states) {
-  const auto is_articulated = [&](int i) { return arena_.crew[i].model.is_articulated(); };
+  const auto has_many_joints = [&](int i) { return arena_.crew[i].model.has_many_joints(); };
   if (is_in_the_air(group, h, states)) {
     const int i = group.robots.front();
     arena_.crew[i].flight->step(h, commands[i].rotors, states[i]);
     double largest = 0;
     for (const double speed : states[i].twist) largest = std::abs(speed) <= largest ? largest : std::abs(speed);
     check_speed(arena_.crew[i].name, largest);
-  } else if (std::any_of(group.robots.begin(), group.robots.end(), is_articulated)) {
+  } else if (std::any_of(group.robots.begin(), group.robots.end(), has_many_joints)) {
     stepper_with_legs_->advance(group, h, at, commands, states);
   } else {
     stepper_.advance(group, h, at, commands, states);

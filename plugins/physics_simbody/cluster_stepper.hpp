@@ -1,5 +1,5 @@
 // Steps robots that may meet within a tick. In each step those that may meet form a group. Fast robots divide its step
-// into parts. A group with legs or limbs has twelve unknowns a robot, any other eight.
+// into parts. A group with legs, limbs or mecanum wheels has twelve unknowns a robot, any other eight.
 #pragma once
 
 #include <memory>
@@ -42,7 +42,7 @@ class ClusterStepper {
 
   Arena& arena_;
   StepperOf<unknowns> stepper_;
-  std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // or limbs: if any robot has them
+  std::unique_ptr<StepperOf<unknowns_with_legs>> stepper_with_legs_;  // or limbs, or four motors: if any robot has them
 
   // Buffers, kept from step to step.
   Connected connected_;

@@ -20,15 +20,6 @@ constexpr double nearby = 0.003;  // [m] least distance of contact detection
 
 constexpr double longest_way_of_corners = 0.005;  // [m] limit of corners passing each other in one step
 
-// The row for the speed along `direction` of the body's point `arm`, all in the body's frame.
-template <int N>
-VelocityOf<N> point_row(const Vector3d& arm, const Vector3d& direction) {
-  VelocityOf<N> row = VelocityOf<N>::Zero();
-  row.template head<3>() = arm.cross(direction);
-  row.template segment<3>(3) = direction;
-  return row;
-}
-
 // Rows of a robot's velocity for a contact at `place` on its body, wheel, leg or limb, with the sign of its side. A
 // wheel's tread moves along the contact only.
 template <int N, class Side>
@@ -52,7 +43,7 @@ ContactRowsOf<N> rows_at(const Side& side, const Vector3d& place, const Matrix3d
     rows.tangent[k] = point_row<N>(arm, ways.col(1 + k));
     if (wheel < 0) continue;
     const Vector3d centre = robot.model->hub_of(wheel);
-    rows.tangent[k][6 + robot.model->side_of(wheel)] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
+    rows.tangent[k][6 + robot.model->joint_of(wheel)] = Vector3d::UnitY().cross(arm - centre).dot(ways.col(1 + k));
   }
   if (leg >= 0) {
     const Vector3d turning = Vector3d::UnitY().cross(arm - robot.model->legs[leg].hip);
@@ -91,13 +82,6 @@ Matrix3d frame_about(const Vector3d& normal) {
   frame.col(0) = normal;
   frame.col(1) = normal.unitOrthogonal();
   frame.col(2) = normal.cross(frame.col(1));
-  return frame;
-}
-
-// Up, and the tangents x and y of the world.
-Matrix3d ground_frame() {
-  Matrix3d frame;
-  frame << 0, 1, 0, 0, 0, 1, 1, 0, 0;
   return frame;
 }
 
@@ -147,52 +131,6 @@ void EncountersOf<N>::begin(double h, double friction, bool somebody_bounces) {
 template <int N>
 double EncountersOf<N>::margin(double speed) const {
   return nearby + h_ * speed;
-}
-
-template <int N>
-void EncountersOf<N>::stand(int body, const Placed& robot, const Memory& memory) {
-  const Compliance compliance(robot.mass, h_);
-  const Matrix3d to_body = robot.to_world.transpose();
-  const Vector3d up = to_body.col(2);
-  const Vector3d rates = robot.body.previous.template head<3>(), velocity = robot.body.previous.template segment<3>(3);
-  const auto add_contact = [&](const Vector3d& arm) -> Contact& {
-    Contact& c = contacts.emplace_back();
-    c.body = body;
-    c.normal = point_row<N>(arm, up);
-    c.softness = compliance.softness;
-    const double gap = robot.position.z() + up.dot(arm) - 0.5 * h_ * up.dot(velocity + rates.cross(arm));
-    c.target = compliance.target(gap, h_);
-    if (somebody_bounces_) meetings.push_back({gap, robot.model->restitution});
-    return c;
-  };
-  for (int w = 0; w < robot.model->wheel_count(); ++w) {
-    const double radius = robot.model->drive.wheel_radius;
-    const Vector3d arm = robot.model->hub_of(w) - radius * up;
-    Contact& c = add_contact(arm);
-    const Vector3d surface = Vector3d::UnitY().cross(-radius * up);  // of the tread, per rate
-    for (int k = 0; k < 2; ++k) {
-      c.tangent[k] = point_row<N>(arm, to_body.col(k));
-      c.tangent[k][6 + robot.model->side_of(w)] = surface.dot(to_body.col(k));
-    }
-    c.friction = robot.model->drive.friction;
-    if (w < 2) {
-      const auto& impulse = memory.impulse[w];
-      c.push = impulse[0];
-      c.grip = {impulse[1], impulse[2]};
-      traces.emplace_back(robot.index, w);
-      continue;
-    }
-    traces.emplace_back(robot.index, -w, ground_frame());
-    for (const KeptImpulse& kept : memory.kept) {
-      if (kept.id != -w) continue;
-      c.push = kept.impulse[2];
-      c.grip = {kept.impulse[0], kept.impulse[1]};
-    }
-  }
-  for (const Slider& slider : robot.model->sliders) {
-    add_contact(slider.centre - slider.radius * up);
-    traces.emplace_back(robot.index);
-  }
 }
 
 template <int N>

@@ -22,6 +22,7 @@ struct PlacedOf {
   InertiaOf<N> inertia;
   BodyOf<N> body;             // its velocities before the solve
   LegAngles leg_angle;        // of a walking robot
+  double steering = 0;        // of a car [rad]
   Posture posture;            // of one with limbs, at the step's start
   Posture posture_ahead;      // the same, half a step ahead; if limbs can be touched
   double speed = 0;           // upper bound over its parts [m/s]
@@ -41,8 +42,8 @@ struct Trace {
   Trace(int of, double kept_as, const Eigen::Matrix3d& about) : robot(of), id(kept_as), frame(about) {}
 
   int robot;
-  int wheel = -1;                 // on the ground: 0 left, 1 right
-  double id = 0;                  // of others; 0: not kept; below 0: the ground under a wheel that follows another
+  int wheel = -1;  // on the ground: 0 left, 1 right
+  double id = 0;   // of others; 0: not kept; below 0: the ground under a wheel that follows another, or is steered
   bool step_is_too_long = false;  // for this contact
   Eigen::Matrix3d frame;          // normal and tangents as columns, in the world
 };
@@ -86,6 +87,8 @@ class EncountersOf {
   double margin(double speed) const;
   void add(const Side& a, const Side& b, Trace trace, const Memory& memory, const TouchPoint& point);
   void stand(int body, const Placed& robot, const Memory& memory);
+  void hold(const Placed& robot, const Eigen::Vector3d& arm, const Eigen::Vector3d& along, int wheel,
+            const Memory& memory, Contact& contact);
   void stand_on_legs(int body, const Placed& robot, const Memory& memory);
   template <class Meet>
   void each_leg_at(const Placed& robot, const Solid& solid, double margin, Meet meet) const;
@@ -93,6 +96,15 @@ class EncountersOf {
   double h_ = 0, friction_ = 0;
   bool somebody_bounces_ = false;
 };
+
+// The row for the speed along `direction` of the body's point `arm`, all in the body's frame.
+template <int N>
+VelocityOf<N> point_row(const Eigen::Vector3d& arm, const Eigen::Vector3d& direction) {
+  VelocityOf<N> row = VelocityOf<N>::Zero();
+  row.template head<3>() = arm.cross(direction);
+  row.template segment<3>(3) = direction;
+  return row;
+}
 
 using ContactDetection = EncountersOf<unknowns>;
 

@@ -86,11 +86,15 @@ RobotModel::RobotModel(const description::Robot& robot) : name(robot.name) {
   if (robot.legs) take_legs(robot);
   if (has_wheels) take_wheels(robot);
   take_limbs(robot);
-  for (const description::Shape& shape : rigid_shapes(robot, 0)) {
+  for (const description::Shape& shape : body_shapes(robot)) {
     if (const auto* sphere = std::get_if<description::Sphere>(&shape.geometry); sphere && is_driven) {
       sliders.push_back({shape.pose.translation(), sphere->radius});
     }
     parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape)});
+  }
+  for (std::size_t side = 0; has_wheels && drive.steering && side < 2; ++side) {
+    for (const description::Shape& shape : steered_shapes(robot, side))
+      parts.push_back({solid_of(Eigen::Isometry3d::Identity(), shape), -1, -1, true});
   }
   measure_limbs();
   measure();

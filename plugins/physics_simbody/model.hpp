@@ -21,9 +21,10 @@ struct Part {
   Solid solid;
   int wheel = -1;  // number: see RobotModel
   int limb = -1;
+  bool is_steered = false;  // of a car's front wheel; its place is that of a straight one
 };
 
-// A wheel that turns at the rate of the first one on its side.
+// A wheel that turns at the rate of the first one on its side, or by its own motor (mecanum).
 struct FollowingWheel {
   int side;                 // 0 left, 1 right
   description::Mass mass;   // in the wheel joint's frame
@@ -52,14 +53,24 @@ struct RobotModel {
   // True if its mass matrix changes from step to step.
   bool is_articulated() const { return !legs.empty() || !limbs.empty(); }
 
+  // True if it has twelve unknowns, not eight.
+  bool has_many_joints() const { return is_articulated() || (has_wheels && drive.mecanum); }
+
   // True if the ground touches the part itself: a wheel has its sphere, a slider no friction.
   bool stands_on(const Part& part) const {
-    return part.wheel < 0 && (part.solid.kind != Solid::Kind::sphere || !is_driven || part.limb >= 0);
+    return part.wheel < 0 && !part.is_steered &&
+           (part.solid.kind != Solid::Kind::sphere || !is_driven || part.limb >= 0);
   }
 
   // Wheels are numbered: left, right, followers.
   int wheel_count() const { return has_wheels ? 2 + static_cast<int>(followers.size()) : 0; }
   int side_of(int number) const { return number < 2 ? number : followers[static_cast<std::size_t>(number) - 2].side; }
+  // The joint, among a robot's, whose rate turns it.
+  int joint_of(int number) const { return drive.mecanum ? number : side_of(number); }
+  double wheel_inertia_of(int number) const {  // about the axle
+    const auto i = static_cast<std::size_t>(number);
+    return number < 2 ? wheel[i].inertia(2, 2) : followers[i - 2].mass.inertia(2, 2);
+  }
   Eigen::Vector3d hub_of(int number) const {
     return number < 2 ? wheel_frame[static_cast<std::size_t>(number)].translation()
                       : followers[static_cast<std::size_t>(number) - 2].frame.translation();
@@ -81,7 +92,7 @@ struct RobotModel {
   description::Mass body;                        // mass of the root and all that is fixed to it, in its frame
   std::array<description::Mass, 2> wheel;        // in the wheel joint's frame
   std::array<Eigen::Isometry3d, 2> wheel_frame;  // of the joints in the body's frame
-  std::vector<FollowingWheel> followers;         // of a skid steer
+  std::vector<FollowingWheel> followers;         // of a skid steer; rear wheels of a mecanum drive
   double restitution = 0;
   description::LegDrive leg_drive;
   std::vector<Leg> legs;  // none: on wheels

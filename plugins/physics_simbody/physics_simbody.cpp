@@ -1,6 +1,7 @@
 // physics.simbody: the engine on the blackboard.
 #include <algorithm>
 #include <cstring>
+#include <muster/ground_drives.hpp>
 #include <muster/parallel.hpp>
 #include <muster/plugin.hpp>
 #include <optional>
@@ -52,15 +53,18 @@ struct PhysicsSimbody {
       "Limbs hang on hinges, sliders and balls without a motor, with limits, damping and friction, and touch as the "
       "body does;\n"
       "robot/*/limbs are these as they hang.\n"
+      "The front wheels of a car stand as robot/*/steering has it and roll freely; they and the rollers of a mecanum "
+      "wheel\n"
+      "hold the ground along one direction only.\n"
       "A robot without a drive is pushed by others; all its shapes have body_friction on the ground.\n"
       "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance,\n"
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
-  static constexpr auto abilities = description::Ability::wheels | description::Ability::rotors |
-                                    description::Ability::legs | description::Ability::height |
-                                    description::Ability::tilting | description::Ability::hinges |
-                                    description::Ability::sliders | description::Ability::balls |
-                                    description::Ability::bouncing | description::Ability::pushed;
+  static constexpr auto abilities =
+      description::Ability::wheels | description::Ability::steering | description::Ability::mecanum |
+      description::Ability::rotors | description::Ability::legs | description::Ability::height |
+      description::Ability::tilting | description::Ability::hinges | description::Ability::sliders |
+      description::Ability::balls | description::Ability::bouncing | description::Ability::pushed;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       real("leg_step", 0.1, 1e-6, 0.1, "s", "as step, of robots that walk and who may meet them"),
@@ -91,6 +95,11 @@ struct PhysicsSimbody {
       legs = s.write<Legs>("robot/*/legs");
     }
     if (robots.any_has_limbs()) limbs = s.write<Limbs>("robot/*/limbs");
+    if (robots.any_steers()) steering = s.read_if_any<SteeringAngle>("robot/*/steering");
+    if (robots.any_mecanum()) {
+      rear_drive = s.read_if_any<Drive>("robot/*/rear_drive");
+      rear_wheels = s.write<Wheels>("robot/*/rear_wheels");
+    }
     if (flies) {
       rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
       rotors = s.write<Rotors>("robot/*/rotors");
@@ -207,6 +216,7 @@ struct PhysicsSimbody {
     k[memory][row] = k.last(memory)[row];
     if (legs) k[*legs][row] = k.last(*legs)[row];
     if (limbs) k[*limbs][row] = k.last(*limbs)[row];
+    if (rear_wheels) k[*rear_wheels][row] = k.last(*rear_wheels)[row];
     if (flies) k[rotors][row] = k.last(rotors)[row];
   }
 
@@ -220,6 +230,14 @@ struct PhysicsSimbody {
       const Drive wheel_rates = row < asked.size() ? asked[row] : Drive{};
       commands[i].left = wheel_rates.left, commands[i].left_rate = wheel_rates.left_rate;
       commands[i].right = wheel_rates.right, commands[i].right_rate = wheel_rates.right_rate;
+      if (rear_drive) {
+        const Drive rear = row < k[*rear_drive].size() ? k[*rear_drive][row] : Drive{};
+        commands[i].rear = {rear.left, rear.right}, commands[i].rear_rate = {rear.left_rate, rear.right_rate};
+      }
+      if (steering) {
+        const SteeringAngle now_steered = row < k[*steering].size() ? k[*steering][row] : SteeringAngle{};
+        commands[i].steering = now_steered.angle, commands[i].steering_rate = now_steered.rate;
+      }
       if (gait) {
         std::copy_n(k[*gait][row].angle, 6, commands[i].leg_angle.begin());
         std::copy_n(k[*gait][row].rate, 6, commands[i].leg_rate.begin());
@@ -247,6 +265,10 @@ struct PhysicsSimbody {
       s.rotors = {r.front, r.left, r.back, r.right};
     }
     if (limbs) s.limbs = k.last(*limbs)[row];
+    if (rear_wheels) {
+      const Wheels& rear = k.last(*rear_wheels)[row];
+      s.rear_angle = {rear.left, rear.right}, s.rear_rate = {rear.left_rate, rear.right_rate};
+    }
     if (!legs) return;
     const Legs& l = k.last(*legs)[row];
     std::copy_n(l.angle, 6, s.leg_angle.begin());
@@ -263,6 +285,7 @@ struct PhysicsSimbody {
     if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
     k[memory][row] = s.memory;
     if (limbs) k[*limbs][row] = s.limbs;
+    if (rear_wheels) k[*rear_wheels][row] = {s.rear_angle[0], s.rear_angle[1], s.rear_rate[0], s.rear_rate[1]};
     if (!legs) return;
     Legs& l = k[*legs][row];
     std::copy_n(s.leg_angle.begin(), 6, l.angle);
@@ -283,7 +306,10 @@ struct PhysicsSimbody {
   Out<Wheels> wheels;
   Out<Rotors> rotors{};
   Out<Model> model;
-  Out<simbody::Memory> memory;   // the engine's memory
+  Out<simbody::Memory> memory;                // the engine's memory
+  std::optional<In<SteeringAngle>> steering;  // if any robot steers
+  std::optional<In<Drive>> rear_drive;        // if any has rollers
+  std::optional<Out<Wheels>> rear_wheels;
   std::optional<In<Gait>> gait;  // if any robot walks
   std::optional<Out<Legs>> legs;
   std::optional<Out<Limbs>> limbs;  // where a robot has any

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 RobotModels::RobotModels(const std::vector<NamedRobot>& robots, LegModel legs) {
   for (const NamedRobot& named : robots) {
-    CrewMember robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}};
+    CrewMember robot{named.name, RobotModel(*named.description), {}, {}, {}, {}, {}, {}, {}};
     if (legs == LegModel::rigid) robot.model.leg_drive.stiffness = std::numeric_limits<double>::infinity();
     robot.bodies = system_.add(robot.model);
     robot.whole = whole_mass(*named.description);
@@ -23,10 +23,11 @@ RobotModels::RobotModels(const std::vector<NamedRobot>& robots, LegModel legs) {
   system_.finish();
   system_.system.realize(system_.state, SimTK::Stage::Position);
   read_masses();
+  read_masses_with_four_wheels();
 }
 
-bool RobotModels::any_is_articulated() const {
-  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.is_articulated(); });
+bool RobotModels::any_has_many_joints() const {
+  return std::any_of(members_.begin(), members_.end(), [](const CrewMember& m) { return m.model.has_many_joints(); });
 }
 
 bool RobotModels::any_bounces() const {
@@ -61,6 +62,37 @@ void RobotModels::read_masses() {
     }
   }
   for (CrewMember& robot : members_) robot.inverse_mass = robot.mass.inverse();
+}
+
+// The four wheels' pins come right after the body, in the order of their numbers.
+void RobotModels::read_masses_with_four_wheels() {
+  const SimTK::State& state = system_.state;
+  SimTK::Vector columns;
+  constexpr int own = 6 + 4;
+  for (CrewMember& robot : members_) {
+    if (!robot.model.has_wheels || !robot.model.drive.mecanum) continue;
+    const int first = robot.bodies.body.getFirstUIndex(state);
+    auto& inertia = robot.with_four_wheels.emplace();
+    inertia.mass.setIdentity();
+    for (int c = 0; c < own; ++c) {
+      SimTK::Vector units(state.getNU(), 0.0);
+      units[first + c] = 1;
+      system_.matter.multiplyByM(state, units, columns);
+      for (int r = 0; r < own; ++r) inertia.mass(r, c) = columns[first + r];
+    }
+    inertia.inverse = inertia.mass.inverse();
+  }
+}
+
+VelocityOf<unknowns_with_legs> CrewMember::free_acceleration_with_four_wheels(
+    const Matrix3d& to_world, const VelocityOf<unknowns_with_legs>& u) const {
+  const Vector3d w = u.head<3>(), weight = to_world.transpose() * Vector3d(0, 0, -gravity * whole.mass);
+  Vector3d spin = Vector3d::Zero();
+  for (int k = 0; k < 4; ++k) spin += model.wheel_inertia_of(k) * u[6 + k] * Vector3d::UnitY();
+  VelocityOf<unknowns_with_legs> force = VelocityOf<unknowns_with_legs>::Zero();
+  force.head<3>() = whole.centre.cross(weight) - w.cross(whole.inertia * w + spin);
+  force.segment<3>(3) = weight;
+  return with_four_wheels->inverse * force;
 }
 
 Velocity CrewMember::free_acceleration(const Matrix3d& to_world, const Velocity& u) const {

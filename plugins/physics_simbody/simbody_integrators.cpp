@@ -66,6 +66,9 @@ struct SimbodyIntegrators::Robot {
       throw std::runtime_error("robot '" + name + "' walks; Simbody's own integrators roll on wheels: use midpoint");
     if (!model.has_wheels)
       throw std::runtime_error("robot '" + name + "' has no wheels: integrator=\"midpoint\" moves it");
+    if (model.drive.steering || model.drive.mecanum)
+      throw std::runtime_error(
+          "robot '" + name + "' steers or has rollers, which Simbody's own integrators here do not have: use midpoint");
     if (!model.followers.empty())
       throw std::runtime_error(
           "robot '" + name +

@@ -16,6 +16,8 @@ struct Command {
   double left_rate, right_rate;                   // [rad/s2]
   std::array<double, 4> rotors{};                 // front, left, back, right [rad/s]
   std::array<double, 6> leg_angle{}, leg_rate{};  // [rad], [rad/s]
+  std::array<double, 2> rear{}, rear_rate{};      // wheels of a mecanum drive [rad/s], [rad/s2]
+  double steering = 0, steering_rate = 0;         // of a car [rad], [rad/s]
 };
 
 // The impulse of a contact of the body, stored by the robot with the smaller row.
@@ -44,10 +46,11 @@ struct RobotState {
   std::array<double, 2> angle;  // of the wheels, left and right [rad]
   std::array<double, 2> rate;   // [rad/s]
   Memory memory;
-  std::array<double, 6> leg_angle{}, leg_rate{};  // in the order of the model [rad], [rad/s]
-  std::array<double, 6> leg_torque{};             // of their motors, the mean over the last step [N m]
-  std::array<double, 4> rotors{};                 // present rates [rad/s]
-  Limbs limbs{};                                  // present states
+  std::array<double, 6> leg_angle{}, leg_rate{};    // in the order of the model [rad], [rad/s]
+  std::array<double, 6> leg_torque{};               // of their motors, the mean over the last step [N m]
+  std::array<double, 4> rotors{};                   // present rates [rad/s]
+  Limbs limbs{};                                    // present states
+  std::array<double, 2> rear_angle{}, rear_rate{};  // of the rear wheels of a mecanum drive [rad], [rad/s]
 };
 
 }  // namespace muster::simbody

@@ -144,7 +144,11 @@ void StepperOf<N>::place(int index, double h, double at, const Command& command,
   Vector3d v = velocity_of(state);
   if (robot.is_rigid()) v += origin_lead(robot, now.to_world, state);
   now.body.previous.template segment<3>(3) = now.to_world.transpose() * v;
-  if (!robot.model.legs.empty()) {
+  if (robot.model.has_wheels && robot.model.drive.steering)
+    now.steering = command.steering + at * command.steering_rate;
+  if (robot.with_four_wheels) {
+    place_mecanum(robot, h, at, command, state, now);
+  } else if (!robot.model.legs.empty()) {
     place_legs(robot, h, at, command, state, now);
   } else if (!robot.model.limbs.empty()) {
     place_limbs(robot, h, at, command, state, now);
@@ -167,6 +171,24 @@ void StepperOf<N>::place_wheels(const CrewMember& robot, double h, double at, co
   body.free.template head<unknowns>() = free;
   const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate};
   for (int w = 0; w < 2; ++w) body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
+}
+
+template <int N>
+void StepperOf<N>::place_mecanum(const CrewMember& robot, double h, double at, const Command& command,
+                                 const RobotState& state, PlacedOf<N>& now) {
+  if constexpr (N == unknowns_with_legs) {
+    const auto& drive = robot.model.drive;
+    auto& body = now.body;
+    const double rates[] = {state.rate[0], state.rate[1], state.rear_rate[0], state.rear_rate[1]};
+    const double asked[] = {command.left + at * command.left_rate, command.right + at * command.right_rate,
+                            command.rear[0] + at * command.rear_rate[0], command.rear[1] + at * command.rear_rate[1]};
+    for (int w = 0; w < 4; ++w) {
+      body.previous[6 + w] = rates[w];
+      body.motors[w] = {drive.limited_rate(asked[w]), drive.max_torque * h};
+    }
+    const double kick = 0.5 * (state.memory.previous_step + h);
+    body.free = body.previous + kick * robot.free_acceleration_with_four_wheels(now.to_world, body.previous);
+  }
 }
 
 template <int N>
@@ -292,6 +314,12 @@ void StepperOf<N>::finish(int index, double h, const Command& command, RobotStat
   for (int k = 0; k < 2 && robot.model.has_wheels; ++k) {
     state.angle[k] += h * u[6 + k];
     state.rate[k] = u[6 + k];
+  }
+  if constexpr (N == unknowns_with_legs) {
+    for (int k = 0; k < 2 && robot.with_four_wheels; ++k) {
+      state.rear_angle[k] += h * u[8 + k];
+      state.rear_rate[k] = u[8 + k];
+    }
   }
   finish_limbs(robot, h, now, state);
   for (std::size_t k = 0; k < robot.model.legs.size(); ++k) {

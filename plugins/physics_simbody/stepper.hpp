@@ -55,6 +55,8 @@ class StepperOf {
   void place(int index, double h, double at, const Command& command, const RobotState& state);
   void place_wheels(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
                     PlacedOf<N>& now);
+  void place_mecanum(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
+                     PlacedOf<N>& now);
   void place_legs(const CrewMember& robot, double h, double at, const Command& command, const RobotState& state,
                   PlacedOf<N>& now);
   void meet(const Group& group, double h, const std::vector<RobotState>& states);

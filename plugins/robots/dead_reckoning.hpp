@@ -15,6 +15,17 @@ inline void roll(Odometry& at, double forward, double turned) {
   at.yaw += turned;
 }
 
+// The same where the robot also goes to its left by `sideways` [m].
+inline void roll(Odometry& at, double forward, double sideways, double turned) {
+  Odometry across = at;
+  across.yaw += 1.5707963267948966;
+  roll(across, sideways, turned);
+  const double dx = across.x - at.x, dy = across.y - at.y;
+  roll(at, forward, turned);
+  at.x += dx;
+  at.y += dy;
+}
+
 inline double yaw_of(const Pose& p) {
   return std::atan2(2 * (p.qw * p.qz + p.qx * p.qy), 1 - 2 * (p.qy * p.qy + p.qz * p.qz));
 }

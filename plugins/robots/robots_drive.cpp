@@ -1,4 +1,9 @@
 // From a controller's command to wheel rates.
+#include <cmath>
+#include <muster/ground_drives.hpp>
+#include <optional>
+
+#include "description/file_text.hpp"
 #include "description/world_robots.hpp"
 #include "ramp.hpp"
 
@@ -15,7 +20,10 @@ struct RobotsDrive {
       "max_acceleration is scaled: both wheels alike, so that the turning radius stays what was asked. A rate holds\n"
       "at the start of the step, its slope over the step: a backend takes the value at the middle. `noise` is added\n"
       "to each wheel's rate, white and Gaussian, one draw a wheel and tick; a wheel at rest holds. Robots whose\n"
-      "model has no differential drive, and robots that nobody commands, are asked for zero.";
+      "model has no wheels, and robots that nobody commands, are asked for zero.\n"
+      "A car steers by atan(w wheelbase / v) within its limit, and its rear wheels turn at the rates of that circle; "
+      "a\n"
+      "turn out of reach gives a warning. A mecanum drive also takes robot/*/sideways, a speed to the left.";
   static constexpr auto phase = MUSTER_ACTUATE;
   static constexpr Param params[] = {
       real("noise", 0, 0, 10, "rad/s", "standard deviation of a wheel's rate from the rate asked for").free()};
@@ -26,6 +34,17 @@ struct RobotsDrive {
     double left, right, model;  // model: as in description::Model; left of a robot without a drive: 1 after the warning
   };
 
+  // Steering at the end of the step, and 1 after the warning of a turn out of reach.
+  struct Steered {
+    static constexpr const char* columns = "angle[rad] warned";
+    double angle, warned;
+  };
+
+  struct RearReached {
+    static constexpr const char* columns = "left[rad/s] right[rad/s]";
+    double left, right;
+  };
+
   explicit RobotsDrive(Setup& s)
       : noise(s.value("noise")),
         stream(s.stream("actuation")),
@@ -33,7 +52,16 @@ struct RobotsDrive {
         command(s.read_if_any<Command>("robot/*/command")),
         flight(s.read_if_any<AttitudeThrust>("robot/*/attitude_thrust")),
         drive(s.write<Drive>("robot/*/drive")),
-        reached(s.write<Reached>("robot/*/drive_reached")) {}
+        reached(s.write<Reached>("robot/*/drive_reached")) {
+    if (robots.any_steers()) {
+      steering = s.write<SteeringAngle>("robot/*/steering");
+      steered = s.write<Steered>("robot/*/steering_reached");
+    }
+    if (!robots.any_mecanum()) return;
+    sideways = s.read_if_any<Sideways>("robot/*/sideways");
+    rear_drive = s.write<Drive>("robot/*/rear_drive");
+    rear_reached = s.write<RearReached>("robot/*/rear_drive_reached");
+  }
 
   void step(const Step& k) const {
     const auto commands = k[command];
@@ -41,9 +69,18 @@ struct RobotsDrive {
       const double model = WorldRobots::model_of(k.last(reached)[i].model, i);
       k[drive][i] = {0, 0, 0, 0};
       k[reached][i] = {0, 0, model};
+      if (steering) {
+        k[*steering][i] = {k.last(*steered)[i].angle, 0};  // it stays as it is
+        k[*steered][i] = k.last(*steered)[i];
+      }
+      if (rear_drive) k[*rear_drive][i] = {0, 0, 0, 0}, k[*rear_reached][i] = {0, 0};
       const auto* motors = robots.drive_of(model);
       if (i >= commands.size() || !k.alive("robot", i)) continue;
-      if (motors)
+      if (motors && motors->steering)
+        steer(k, i, commands[i], *motors);
+      else if (motors && motors->mecanum)
+        slide(k, i, commands[i], *motors);
+      else if (motors)
         turn(k, i, commands[i], *motors);
       else
         warn_if_asked(k, i, commands[i]);
@@ -78,11 +115,65 @@ struct RobotsDrive {
   void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {
     const WheelRates from{k.last(reached)[i].left, k.last(reached)[i].right};
     const WheelRates goal{motors.left_rate(asked.v, asked.w), motors.right_rate(asked.v, asked.w)};
-    const WheelRates to = ramped(from, limited(goal, motors.max_speed), motors.max_acceleration * k.dt());
+    set(k, i, from, ramped(from, limited(goal, motors.max_speed), motors.max_acceleration * k.dt()));
+  }
+
+  void set(const Step& k, std::size_t i, const WheelRates& from, const WheelRates& to) const {
     k[drive][i] = {from.left + error(k, i, 0, from.left, to.left), from.right + error(k, i, 1, from.right, to.right),
                    (to.left - from.left) / k.dt(), (to.right - from.right) / k.dt()};
     k[reached][i].left = to.left;
     k[reached][i].right = to.right;
+  }
+
+  // Steering first, then the speed within the outer wheel's limit: so the rear wheels turn at the rates of the circle
+  // that the front ones steer.
+  void steer(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {
+    const description::Steering& car = *motors.steering;
+    const WheelRates from{k.last(reached)[i].left, k.last(reached)[i].right};
+    const Steered& before = k.last(*steered)[i];
+    const double wanted = asked.v != 0 ? car.angle(asked.v, asked.w) : before.angle;
+    warn_of_reach(k, i, asked, car, wanted);
+    const double most = car.max_rate * k.dt(), goal = std::clamp(wanted, -car.limit, car.limit);
+    const double angle = before.angle + std::clamp(goal - before.angle, -most, most);
+    k[*steering][i] = {before.angle, (angle - before.angle) / k.dt()};
+    k[*steered][i].angle = angle;
+    const double outer = 1 + std::abs(std::tan(angle)) * motors.wheel_base / (2 * car.wheelbase);
+    const double fastest = motors.max_speed * motors.wheel_radius / outer;
+    const double change = motors.max_acceleration * k.dt() * motors.wheel_radius / outer;
+    const double v = motors.forward(from.left, from.right), to = std::clamp(asked.v, -fastest, fastest);
+    const double then = v + std::clamp(to - v, -change, change), w = car.turn(then, angle);
+    set(k, i, from, {motors.left_rate(then, w), motors.right_rate(then, w)});
+  }
+
+  // Once of each car that is asked for a turn that it cannot make.
+  void warn_of_reach(const Step& k, std::size_t i, const Command& asked, const description::Steering& car,
+                     double wanted) const {
+    constexpr double rounded = 1e-9;  // [rad]
+    const bool turns_on_the_spot = asked.v == 0 && asked.w != 0;
+    if (k[*steered][i].warned != 0 || (!turns_on_the_spot && std::abs(wanted) <= car.limit + rounded)) return;
+    k[*steered][i].warned = 1;
+    const std::string name(k.name("robot", i));
+    const auto number = [](double value) { return description::print_number(value); };
+    k.warn("robot/" + name,
+           "robot '" + name + "' is asked for " +
+               (turns_on_the_spot ? std::string("a turn on the spot")
+                                  : "a circle of radius " + number(std::abs(asked.v / asked.w)) + " m") +
+               ", which its steering cannot make; its smallest circle has a radius of " +
+               number(car.wheelbase / std::tan(car.limit)) + " m (wheelbase / tan(steering_limit)); it " +
+               (turns_on_the_spot ? "stands" : "drives that one"));
+  }
+
+  void slide(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {
+    const Reached& front = k.last(reached)[i];
+    const RearReached& rear = k.last(*rear_reached)[i];
+    const FourRates from{front.left, front.right, rear.left, rear.right};
+    const double across = i < k[*sideways].size() ? k[*sideways][i].v : 0;
+    const FourRates goal = limited(motors.mecanum->rates({asked.v, across, asked.w}), motors.max_speed);
+    const FourRates to = ramped(from, goal, motors.max_acceleration * k.dt());
+    set(k, i, {from[0], from[1]}, {to[0], to[1]});
+    k[*rear_drive][i] = {from[2] + error(k, i, 2, from[2], to[2]), from[3] + error(k, i, 3, from[3], to[3]),
+                         (to[2] - from[2]) / k.dt(), (to[3] - from[3]) / k.dt()};
+    k[*rear_reached][i] = {to[2], to[3]};
   }
 
   double error(const Step& k, std::size_t robot, unsigned wheel, double from, double to) const {
@@ -98,6 +189,11 @@ struct RobotsDrive {
   In<AttitudeThrust> flight;  // by which some controller flies robots
   Out<Drive> drive;
   Out<Reached> reached;
+  std::optional<Out<SteeringAngle>> steering;  // where a robot has any
+  std::optional<Out<Steered>> steered;
+  std::optional<In<Sideways>> sideways;  // where a robot has rollers
+  std::optional<Out<Drive>> rear_drive;
+  std::optional<Out<RearReached>> rear_reached;
 };
 
 }  // namespace

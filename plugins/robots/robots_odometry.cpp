@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "dead_reckoning.hpp"
 #include "description/world_robots.hpp"
@@ -41,6 +42,11 @@ struct RobotsOdometry {
     double of, model, left, right, resets;
   };
 
+  struct SeenRear {
+    static constexpr const char* columns = "left[rad] right[rad]";
+    double left, right;
+  };
+
   struct SeenLegs {
     static constexpr const char* columns = "angle1[rad] angle2[rad] angle3[rad] angle4[rad] angle5[rad] angle6[rad]";
     double angle[6];
@@ -58,6 +64,10 @@ struct RobotsOdometry {
         odometry(s.write<Odometry>("robot/*/odometry", MUSTER_SENSED)),
         stall(s.write<Stall>("robot/*/stall", MUSTER_SENSED)),
         seen(s.write<Seen>("robot/*/odometry_seen")) {
+    if (robots.any_mecanum()) {
+      rear_wheels = s.read_if_any<Wheels>("robot/*/rear_wheels");
+      seen_rear = s.write<SeenRear>("robot/*/odometry_rear");
+    }
     if (!robots.any_walks()) return;
     legs = s.read_if_any<Legs>("robot/*/legs");
     seen_legs = s.write<SeenLegs>("robot/*/odometry_legs");
@@ -79,6 +89,10 @@ struct RobotsOdometry {
       }
       if (next.resets != before.resets && before.of == next.of) start_from(k[odometry][i], resets[i]);
       k[seen][i] = next;
+      if (seen_rear) {
+        const bool has_rear = i < k[*rear_wheels].size();
+        k[*seen_rear][i] = has_rear ? SeenRear{k[*rear_wheels][i].left, k[*rear_wheels][i].right} : SeenRear{0, 0};
+      }
       if (robots.any_walks()) k[seen_legs][i] = i < k[legs].size() ? angles_of(k[legs][i]) : SeenLegs{};
       const bool stands = i < asked.size() && k.alive("robot", i) && stalls(asked[i], now, k.dt());
       k[stall][i].stalled = stands ? 1 : 0;
@@ -105,7 +119,12 @@ struct RobotsOdometry {
     if (const auto* motors = robots.drive_of(model)) {
       left += error(k, i, 0, left);
       right += error(k, i, 1, right);
-      go(k, at, motors->forward(left, right), motors->turn(left, right));
+      if (motors->mecanum && seen_rear && i < k[*rear_wheels].size())
+        slide(k, i, at, *motors->mecanum, left, right);
+      else if (motors->steering)
+        go_by_axle(k, at, motors->steering->rear_axle, motors->forward(left, right), motors->turn(left, right));
+      else
+        go(k, at, motors->forward(left, right), motors->turn(left, right));
     } else if (const auto* walks = robots.legs_of(model); walks && i < k[legs].size()) {
       const Sides sides = strides(k, i, *walks);
       go(k, at, (sides.left + sides.right) / 2, k[turn_share] * (sides.right - sides.left) / walks->track());
@@ -117,6 +136,25 @@ struct RobotsOdometry {
     roll(at, forward, turned);
     at.v = forward / k.dt();
     at.w = turned / k.dt();
+  }
+
+  // The rear axle of a car goes along arcs.
+  static void go_by_axle(const Step& k, Odometry& at, double axle, double forward, double turned) {
+    at.x += axle * std::cos(at.yaw), at.y += axle * std::sin(at.yaw);
+    go(k, at, forward, turned);
+    at.x -= axle * std::cos(at.yaw), at.y -= axle * std::sin(at.yaw);
+  }
+
+  void slide(const Step& k, std::size_t i, Odometry& at, const description::Mecanum& wheeled, double front_left,
+             double front_right) const {
+    const SeenRear& before = k.last(*seen_rear)[i];
+    double rear_left = k[*rear_wheels][i].left - before.left, rear_right = k[*rear_wheels][i].right - before.right;
+    rear_left += error(k, i, 2, rear_left);
+    rear_right += error(k, i, 3, rear_right);
+    const auto way = wheeled.motion({front_left, front_right, rear_left, rear_right});
+    roll(at, way.vx, way.vy, way.w);
+    at.v = way.vx / k.dt();
+    at.w = way.w / k.dt();
   }
 
   Sides strides(const Step& k, std::size_t i, const description::LegDrive& walks) const {
@@ -156,6 +194,8 @@ struct RobotsOdometry {
   Out<Odometry> odometry;
   Out<Stall> stall;
   Out<Seen> seen;
+  std::optional<In<Wheels>> rear_wheels;  // if any robot has rollers
+  std::optional<Out<SeenRear>> seen_rear;
   In<Legs> legs{};            // if any robot walks
   Out<SeenLegs> seen_legs{};  // if any robot walks
 };

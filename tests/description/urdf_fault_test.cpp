@@ -232,7 +232,8 @@ const Case cases[] = {
      "of "
      "0.04"},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
-     "3: <tracks> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, <ball> or <laser>"},
+     "3: <tracks> is not known in <muster>; expected <differential>, <ackermann>, <mecanum>, <quadrotor>, <legs>, "
+     "<ball> or <laser>"},
     {"ball_as_a_type", link("a", mass) + link("b", mass) + joint("j", "a", "b", "ball"),
      "4: joint 'j': URDF has no type 'ball'; expected type 'floating' and <muster><ball joint=\"j\"/></muster>"},
     {"spherical", link("a", mass) + link("b", mass) + joint("j", "a", "b", "spherical"),
@@ -248,7 +249,8 @@ const Case cases[] = {
     {"ball_on_an_axis", ball("<ball joint='j'/>", "continuous"),
      "6: <ball> joint 'j' is continuous; expected type 'floating'"},
     {"ball_misspelt", ball("<bal joint='j'/>"),
-     "6: <bal> is not known in <muster>; expected <differential>, <quadrotor>, <legs>, <ball> or <laser>; did you mean "
+     "6: <bal> is not known in <muster>; expected <differential>, <ackermann>, <mecanum>, <quadrotor>, <legs>, <ball> "
+     "or <laser>; did you mean "
      "'ball'?"},
     {"ball_without_mass",
      link("a", mass) + link("b", "") + joint("j", "a", "b", "floating") + "<muster><ball joint='j'/></muster>",
