@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "run_log_files.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
@@ -23,11 +24,13 @@ struct RunWords : RunOptions {
   bool watch = false, expected = false;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
+  LogWords log;
 };
 
 void declare(CommandLine& line, RunWords& words) {
   line.option("world", words.world, "the world's folder or file").required();
   declare(line, static_cast<RunOptions&>(words));
+  declare(line, words.log);
   line.option("--save", words.save, "write the state at the end to this file");
   line.option("--restore", words.restore, "begin from a state that --save wrote");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks");
@@ -128,8 +131,10 @@ void add_page(const RunRecord& record, const RunWords& words, std::vector<std::f
   if (!why_not.empty() && !words.json) fmt::print(stderr, "muster: note: no run.html: {}\n", why_not);
 }
 
-int run_world(const RunWords& words) {
+int run_world(RunWords& words) {
+  words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
   World world = world_of(words.world, words);
+  add_plotted(words.log, words.out, world.records);
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
     swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
@@ -157,13 +162,18 @@ int run_world(const RunWords& words) {
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");
   std::optional<RunRecord> record;
   std::optional<RunPictures> pictures;
+  std::optional<RunLogFiles> log;
   if (!words.out.empty()) {
     record.emplace(run, records, words.out, plugin_path(words.plugins));
     pictures.emplace(run);
     record->write(run);
     pictures->look(run);
-  } else if (!records.empty() && !words.json) {
+  } else if (!records.empty() && !words.has_log && !words.json) {
     fmt::print(stderr, "muster: note: the world records tables; --out DIR says where to\n");
+  }
+  if (words.log.any()) {
+    log.emplace(run, records, words.log, words.out);
+    log->write(run);
   }
   Watcher watcher;
   Digests digests;
@@ -174,6 +184,10 @@ int run_world(const RunWords& words) {
   const auto finish = [&] {
     std::vector<std::filesystem::path> files;
     if (record) files = record->close(run, outcome_of(run));
+    if (log) {
+      for (auto& file : log->close(run)) files.push_back(std::move(file));
+      for (const auto& note : log->notes()) fmt::print(stderr, "muster: note: {}\n", note);
+    }
     if (!words.save.empty()) run.snapshot().save(words.save), files.emplace_back(words.save);
     return files;
   };
@@ -181,11 +195,13 @@ int run_world(const RunWords& words) {
     if (words.expected) {
       run.evaluate(MUSTER_RADIO, true);
       if (record) record->write(run);
+      if (log) log->write(run);
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
       run.step();
       if (record) record->write(run), pictures->look(run);
+      if (log) log->write(run);
       if (words.digest_every && run.tick() % words.digest_every == 0) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
