@@ -1,6 +1,7 @@
 #include "cli/run_log_files.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "plotting/figure.hpp"
 #include "run_log/wide_table.hpp"
@@ -50,28 +51,31 @@ std::string names_in(const std::string& name, const std::string& table) {
   return name.substr(star, name.size() - (table.size() - 1));
 }
 
+// "plot_robot_pose_x" of "robot/*/pose/x"
+std::string picture_name(const std::string& word) {
+  std::string name = "plot_";
+  for (const char c : word) {
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-')
+      name += c;
+    else if (name.back() != '_')
+      name += '_';
+  }
+  return name;
+}
+
 fs::path draw(const Simulation& run, const fs::path& log, const std::string& word, const fs::path& out) {
   const auto [table, column] = plotted(word);
   const auto series = run_log::series_of(log, table, column);
   plotting::Panel panel{.x = {.label = "time", .unit = "s"},
-                        .y = {.label = table + '/' + column, .unit = series.empty() ? "" : series[0].unit}};
+                        .y = {.label = table + '/' + column, .unit = series.empty() ? "" : series[0].unit},
+                        .legend = true};
   for (const run_log::Series& one : series)
     panel.layers.push_back(plotting::Line{.x = one.times,
                                           .y = one.values,
                                           .label = series.size() > 1 && series.size() <= most_labels
                                                        ? names_in(one.name, table)
                                                        : ""});
-  std::string name = "plot";
-  for (const char c : word) {
-    const bool is_kept = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-';
-    if (is_kept)
-      name += c;
-    else if (name.back() != '_')
-      name += '_';
-    if (name == "plot") name += '_';
-  }
-  if (name.compare(0, 5, "plot_") != 0) name.insert(4, "_");
-  const fs::path file = out / (name + ".svg");
+  const fs::path file = out / (picture_name(word) + ".svg");
   try {
     plotting::save({.title = run.world().name, .width = 900, .panels = {panel}}, file);
   } catch (const std::runtime_error& e) {

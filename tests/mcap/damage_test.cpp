@@ -26,13 +26,12 @@ std::string refusal(const std::filesystem::path& file) {
   return "";
 }
 
-// Byte by byte in a small file.
 TEST(McapDamage, EveryPrefixIsRecoveredUpToItsLastChunk) {
   const Folder folder;
   const auto written = write_log(folder / "a.mcap", 120);
   const std::string whole = folder.read("a.mcap");
   std::size_t recovered = 0;
-  for (std::size_t size = mcap::magic.size(); size < whole.size(); size += 1 + size / 400) {
+  for (std::size_t size = mcap::magic.size(); size < whole.size(); size += size < 600 ? 19 : 1 + size / 40) {
     folder.write("torn.mcap.part", whole.substr(0, size));
     EXPECT_THAT(refusal(folder / "torn.mcap.part"), ContainsRegex("^byte [0-9]+: .*muster log recover")) << size;
     const auto done = mcap::rewrite(folder / "torn.mcap.part", folder / "torn.mcap", Damage::skipped);
@@ -73,9 +72,10 @@ TEST(McapDamage, NoBytesBringTheReaderDown) {
       bytes[random() % range] = static_cast<char>(random());
     }
     folder.write("b.mcap", bytes);
-    if (const std::string message = refusal(folder / "b.mcap"); !message.empty())
+    if (const std::string message = refusal(folder / "b.mcap"); !message.empty()) {
       EXPECT_THAT(message, ContainsRegex("^byte [0-9]+: ")) << trial;
-    if (bytes.substr(0, 8) != whole.substr(0, 8)) continue;
+    }
+    if (trial % 20 != 0 || bytes.substr(0, 8) != whole.substr(0, 8)) continue;
     mcap::rewrite(folder / "b.mcap", folder / "c.mcap", Damage::skipped);
     EXPECT_EQ(refusal(folder / "c.mcap"), "") << trial;
   }
