@@ -6,9 +6,15 @@ namespace muster::mcap {
 namespace {
 
 template <class Number>
+char* store(char* to, Number value) {
+  for (std::size_t i = 0; i < sizeof value; ++i) *to++ = static_cast<char>(value >> (8 * i) & 255);
+  return to;
+}
+
+template <class Number>
 void put_little_endian(std::string& to, Number value) {
   char bytes[sizeof value];
-  for (std::size_t i = 0; i < sizeof value; ++i) bytes[i] = static_cast<char>(value >> (8 * i) & 255);
+  store(bytes, value);
   to.append(bytes, sizeof value);
 }
 
@@ -65,13 +71,17 @@ void put_record(std::string& to, const Channel& channel) {
   end_record(to, begun);
 }
 
+// In one piece: a log has millions of them.
 void put_record(std::string& to, const Message& message) {
-  put(to, static_cast<std::uint8_t>(Opcode::message));
-  put(to, std::uint64_t{2 + 4 + 8 + 8 + message.data.size()});
-  put(to, message.channel);
-  put(to, message.sequence);
-  put(to, message.log_time);
-  put(to, message.publish_time);
+  constexpr std::size_t fields = 2 + 4 + 8 + 8;
+  char head[head_bytes + fields];
+  char* next = store(head, static_cast<std::uint8_t>(Opcode::message));
+  next = store(next, std::uint64_t{fields + message.data.size()});
+  next = store(next, message.channel);
+  next = store(next, message.sequence);
+  next = store(next, message.log_time);
+  store(next, message.publish_time);
+  to.append(head, sizeof head);
   to += message.data;
 }
 

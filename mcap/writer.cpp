@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -133,7 +134,8 @@ void Writer::put_indices(ChunkIndex& index) {
     const auto begun = begin_record(out_, Opcode::message_index);
     put(out_, channel);
     put(out_, static_cast<std::uint32_t>(entries_[channel].size() * sizeof(Entry)));
-    for (const Entry& entry : entries_[channel]) put(out_, entry.time), put(out_, entry.offset);
+    static_assert(std::endian::native == std::endian::little && sizeof(Entry) == 16);
+    out_.append(reinterpret_cast<const char*>(entries_[channel].data()), entries_[channel].size() * sizeof(Entry));
     end_record(out_, begun);
     entries_[channel].clear();
   }
