@@ -1,4 +1,5 @@
-// muster log ACTION FILE: what an MCAP file holds; a damaged one made whole; a span of time; its tables as one CSV file.
+// muster log ACTION FILE: what an MCAP file holds; a damaged one made whole; a span of time; its tables as one CSV
+// file.
 #include <fmt/core.h>
 
 #include "log_contents.hpp"
@@ -52,8 +53,8 @@ void print_rewritten(const LogVerbWords& words, const mcap::Rewritten& done, con
   }
   for (const std::string& damage : done.scan.damages) fmt::print("  {}\n", damage);
   if (done.scan.attachments > 0) fmt::print("  {} attachments are left out\n", done.scan.attachments);
-  fmt::print("wrote {}: {} messages, {} s to {} s\n", out.string(), done.messages,
-             print_real(seconds(done.first_time)), print_real(seconds(done.last_time)));
+  fmt::print("wrote {}: {} messages, {} s to {} s\n", out.string(), done.messages, print_real(seconds(done.first_time)),
+             print_real(seconds(done.last_time)));
 }
 
 int log_recover(const LogVerbWords& words) {
@@ -84,11 +85,10 @@ int log_csv(const LogVerbWords& words) {
   const fs::path out = out_of(words, ".csv");
   const auto done = run_log::write_wide(words.file, out, words.columns);
   if (words.json) {
-    fmt::print("{}\n", Json{{"file", out.string()},
-                            {"rows", done.rows},
-                            {"columns", done.columns},
-                            {"replaced", done.replaced}}
-                           .dump(2));
+    fmt::print(
+        "{}\n",
+        Json{{"file", out.string()}, {"rows", done.rows}, {"columns", done.columns}, {"replaced", done.replaced}}.dump(
+            2));
     return 0;
   }
   fmt::print("wrote {}: {} times, {} columns\n", out.string(), done.rows, done.columns);

@@ -70,11 +70,10 @@ fs::path draw(const Simulation& run, const fs::path& log, const std::string& wor
                         .y = {.label = table + '/' + column, .unit = series.empty() ? "" : series[0].unit},
                         .legend = true};
   for (const run_log::Series& one : series)
-    panel.layers.push_back(plotting::Line{.x = one.times,
-                                          .y = one.values,
-                                          .label = series.size() > 1 && series.size() <= most_labels
-                                                       ? names_in(one.name, table)
-                                                       : ""});
+    panel.layers.push_back(
+        plotting::Line{.x = one.times,
+                       .y = one.values,
+                       .label = series.size() > 1 && series.size() <= most_labels ? names_in(one.name, table) : ""});
   const fs::path file = out / (picture_name(word) + ".svg");
   try {
     plotting::save({.title = run.world().name, .width = 900, .panels = {panel}}, file);
@@ -96,7 +95,8 @@ fs::path in_its_folder(const fs::path& file) {
 void declare(CommandLine& line, LogWords& words) {
   line.option("--mcap", words.mcap, "write the run as an MCAP file, for Foxglove, PlotJuggler, ROS 2 and `muster log`");
   line.option("--wide", words.wide, "write the recorded tables as one CSV file: a row a time, a column a number");
-  line.option("--plot", words.plot, "TABLE/COLUMN: draw it over time into --out, such as 'robot/*/pose/x'").one_word_each();
+  line.option("--plot", words.plot, "TABLE/COLUMN: draw it over time into --out, such as 'robot/*/pose/x'")
+      .one_word_each();
 }
 
 void add_plotted(const LogWords& words, const std::string& out, std::vector<RecordDeclaration>& records) {

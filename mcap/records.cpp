@@ -96,7 +96,8 @@ template <class Number>
 Number Cursor::little_endian(const char* what) {
   const std::string_view taken = bytes(sizeof(Number), what);
   std::uint64_t value = 0;
-  for (std::size_t i = 0; i < taken.size(); ++i) value |= std::uint64_t{static_cast<unsigned char>(taken[i])} << (8 * i);
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    value |= std::uint64_t{static_cast<unsigned char>(taken[i])} << (8 * i);
   return static_cast<Number>(value);
 }
 

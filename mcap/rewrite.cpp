@@ -11,7 +11,8 @@
 namespace muster::mcap {
 namespace {
 
-// Under a temporary name of its own: FILE.part may be what is read. Schemas and channels get new numbers: those that are not used do not appear.
+// Under a temporary name of its own: FILE.part may be what is read. Schemas and channels get new numbers: those that
+// are not used do not appear.
 class Copier : public Visitor {
  public:
   Copier(std::filesystem::path to, const Span& span, Rewritten& result)
@@ -78,8 +79,7 @@ class Copier : public Visitor {
 
 }  // namespace
 
-Rewritten rewrite(const std::filesystem::path& from, const std::filesystem::path& to, Damage damage,
-                  const Span& span) {
+Rewritten rewrite(const std::filesystem::path& from, const std::filesystem::path& to, Damage damage, const Span& span) {
   Rewritten result;
   Copier copier(to, span, result);
   try {

@@ -16,10 +16,10 @@ struct Span {
 };
 
 struct Rewritten {
-  Scan scan;                    // of the file that was read
-  std::uint64_t messages = 0;   // written
+  Scan scan;                                    // of the file that was read
+  std::uint64_t messages = 0;                   // written
   std::uint64_t first_time = 0, last_time = 0;  // of them; 0 where there are none
-  std::uint64_t bytes = 0;      // of the new file
+  std::uint64_t bytes = 0;                      // of the new file
 };
 
 // With Damage::skipped this recovers a damaged file. Both names may be the same. Throws Error.

@@ -93,15 +93,17 @@ class Scanner {
     file_.read(0, std::min<std::uint64_t>(file_.size(), magic.size()), body_);
     if (body_ == magic) return;
     const bool is_cut = body_.size() < magic.size() && magic.starts_with(body_);
-    throw invalid({path_.string()}, std::string("byte 0: ") +
-                                        (is_cut ? "the file ends before its first record"
-                                                : "is no MCAP file; one begins with the bytes 89 4d 43 41 50 30 0d 0a"));
+    throw invalid(
+        {path_.string()},
+        std::string("byte 0: ") + (is_cut ? "the file ends before its first record"
+                                          : "is no MCAP file; one begins with the bytes 89 4d 43 41 50 30 0d 0a"));
   }
 
   // Reads the record at this byte and returns the byte behind it.
   std::uint64_t record(std::uint64_t at) {
     const std::uint64_t left = file_.size() - at;
-    if (left < head_bytes) throw Framing{{at, left == 0 ? "the file ends without its footer" : "the file ends within a record"}};
+    if (left < head_bytes)
+      throw Framing{{at, left == 0 ? "the file ends without its footer" : "the file ends within a record"}};
     file_.read(at, head_bytes, body_);
     Cursor head(body_);
     const auto opcode = static_cast<Opcode>(head.byte("opcode"));
@@ -170,7 +172,8 @@ class Scanner {
     } else if (opcode == Opcode::message) {
       const Message message = read_message(body);
       if (!channels_.count(message.channel))
-        throw Malformed(0, "a message on channel " + std::to_string(message.channel) + ", which was not declared before");
+        throw Malformed(0,
+                        "a message on channel " + std::to_string(message.channel) + ", which was not declared before");
       visitor_.message(message, where);
     }
   }

@@ -22,8 +22,8 @@ struct Visitor {
 
 struct Scan {
   std::string profile, library;
-  std::uint64_t bytes = 0;   // of the file
-  std::uint64_t chunks = 0;  // that were handed on
+  std::uint64_t bytes = 0;                 // of the file
+  std::uint64_t chunks = 0;                // that were handed on
   std::uint64_t packed = 0, unpacked = 0;  // bytes of them, compressed and not
   std::uint64_t attachments = 0;           // that were not handed on
   bool is_whole = false;                   // it ends as a complete file does

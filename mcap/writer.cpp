@@ -61,9 +61,9 @@ std::uint16_t Writer::channel(Channel channel) {
 }
 
 void Writer::message(const Message& message) {
-  const bool is_full = chunk_has_messages_ && (chunk_.size() + message.data.size() > chunk_bytes ||
-                                               std::max(message.log_time, last_time_) -
-                                                       std::min(message.log_time, first_time_) > chunk_time);
+  const bool is_full = chunk_has_messages_ &&
+                       (chunk_.size() + message.data.size() > chunk_bytes ||
+                        std::max(message.log_time, last_time_) - std::min(message.log_time, first_time_) > chunk_time);
   if (is_full) close_chunk();
   if (!std::exchange(chunk_has_messages_, true)) first_time_ = last_time_ = message.log_time;
   first_time_ = std::min(first_time_, message.log_time);
@@ -172,8 +172,12 @@ void Writer::put_summary() {
     put(offsets, std::uint64_t{summary.size() - first});
     end_record(offsets, begun);
   };
-  group(Opcode::schema, [&] { for (const Schema& schema : schemas_) put_record(summary, schema); });
-  group(Opcode::channel, [&] { for (const Channel& channel : channels_) put_record(summary, channel); });
+  group(Opcode::schema, [&] {
+    for (const Schema& schema : schemas_) put_record(summary, schema);
+  });
+  group(Opcode::channel, [&] {
+    for (const Channel& channel : channels_) put_record(summary, channel);
+  });
   group(Opcode::statistics, [&] { put_statistics(summary); });
   group(Opcode::metadata_index, [&] {
     for (const MetadataIndex& index : metadata_) {

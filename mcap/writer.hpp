@@ -1,5 +1,5 @@
-// Writes an MCAP file in compressed chunks, under the temporary name FILE.part until it is complete. What was flushed is
-// whole: recover() (rewrite.hpp) makes a valid file of it, whenever the program ended.
+// Writes an MCAP file in compressed chunks, under the temporary name FILE.part until it is complete. What was flushed
+// is whole: recover() (rewrite.hpp) makes a valid file of it, whenever the program ended.
 #pragma once
 
 #include <filesystem>

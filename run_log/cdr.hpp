@@ -57,7 +57,8 @@ class CdrReader {
  public:
   explicit CdrReader(std::string_view message) : from_(message) {
     const std::string_view encoding = from_.bytes(4, "the head of a message");
-    if (encoding[0] != 0 || encoding[1] != 1) throw mcap::Malformed(0, "a message in another encoding than little-endian CDR");
+    if (encoding[0] != 0 || encoding[1] != 1)
+      throw mcap::Malformed(0, "a message in another encoding than little-endian CDR");
   }
 
   double real() {

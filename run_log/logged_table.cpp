@@ -116,12 +116,11 @@ std::optional<LoggedTable> table_of(const mcap::Channel& channel) {
   if (found == channel.metadata.end()) return {};
   const auto text = [&](const char* name) {
     const auto at = channel.metadata.find(name);
-    if (at == channel.metadata.end())
-      throw mcap::Malformed(0, std::string("a channel's metadata lack ") + name);
+    if (at == channel.metadata.end()) throw mcap::Malformed(0, std::string("a channel's metadata lack ") + name);
     return at->second;
   };
-  LoggedTable result{found->second, text("muster.row"),
-                     static_cast<Layout>(place_of(text("muster.layout"), layouts, "a layout")), {}};
+  LoggedTable result{
+      found->second, text("muster.row"), static_cast<Layout>(place_of(text("muster.layout"), layouts, "a layout")), {}};
   std::istringstream words(text("muster.fields"));
   for (std::string word; words >> word;) result.fields.push_back(field_of(word));
   return result;
@@ -131,8 +130,8 @@ void read_message(const LoggedTable& table, std::string_view data, const TakeRea
   CdrReader from(data);
   std::uint32_t rows = table.layout == Layout::rows ? from.count("a number of rows") : 1;
   if (rows > from.left() || (rows > 0 && table.fields.empty()))
-    throw mcap::Malformed(0, "a message of " + std::to_string(rows) + " rows in " + std::to_string(from.left()) +
-                                 " bytes");
+    throw mcap::Malformed(
+        0, "a message of " + std::to_string(rows) + " rows in " + std::to_string(from.left()) + " bytes");
   for (; rows > 0; --rows) read_row(table, from, take);
 }
 

@@ -59,11 +59,11 @@ void put_marker(CdrWriter& to, const Marker& m, std::int32_t id, std::uint64_t n
   for (const double v : {m.x, m.y, m.z, 0.0, 0.0, std::sin(m.yaw / 2), std::cos(m.yaw / 2)}) to.put(v);
   for (const double v : {m.length, m.width, m.height}) to.put(v);
   for (const float v : {m.colour.r, m.colour.g, m.colour.b, m.colour.a}) to.put(v);
-  put_time(to, 0);             // lifetime: it stays
-  to.put(std::uint8_t{1});     // it moves with its frame
+  put_time(to, 0);                // lifetime: it stays
+  to.put(std::uint8_t{1});        // it moves with its frame
   to.count(0).count(0).text("");  // points, colours, texture
   put_time(to, 0);
-  to.text("").text("").count(0).count(0);  // the texture: frame, format, data, coordinates
+  to.text("").text("").count(0).count(0);                           // the texture: frame, format, data, coordinates
   to.text(m.text).text("").text("").count(0).put(std::uint8_t{0});  // text, mesh
 }
 
@@ -121,13 +121,13 @@ void SceneLog::write_transforms(const Simulation& run) {
   const Rows<Pose> poses(run, "robot", "pose");
   if (poses.count == 0) return;
   if (!transforms_)
-    transforms_ = writer_.channel(
-        {0, writer_.schema({0, tf_message.name, "ros2msg", tf_message.definition}), "/tf", "cdr", {}});
+    transforms_ =
+        writer_.channel({0, writer_.schema({0, tf_message.name, "ros2msg", tf_message.definition}), "/tf", "cdr", {}});
   const std::uint64_t now = log_time(run.time());
   CdrWriter to(message_);
-  to.count(static_cast<std::size_t>(
-      std::count_if(poses.alive->begin(), poses.alive->begin() + static_cast<std::ptrdiff_t>(poses.count),
-                    [](std::uint8_t alive) { return alive != 0; })));
+  to.count(static_cast<std::size_t>(std::count_if(poses.alive->begin(),
+                                                  poses.alive->begin() + static_cast<std::ptrdiff_t>(poses.count),
+                                                  [](std::uint8_t alive) { return alive != 0; })));
   for (std::size_t i = 0; i < poses.count; ++i) {
     if (!(*poses.alive)[i]) continue;
     const Pose& p = poses.first[i];

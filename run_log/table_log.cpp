@@ -92,9 +92,9 @@ void TableLog::declare(const Simulation& run, const TableView& view, Logged& log
   logged.names = names_of_listed(run, set);
   logged.columns = columns;
   logged.sources.clear();
-  const Layout layout = view.row >= 0 || set.is_named()      ? Layout::row
-                        : set.kind == SetKind::queue         ? Layout::message
-                                                             : Layout::rows;
+  const Layout layout = view.row >= 0 || set.is_named() ? Layout::row
+                        : set.kind == SetKind::queue    ? Layout::message
+                                                        : Layout::rows;
   logged.table = {logged.declared.table, "", layout, {}};
   const auto add = [&](const Table& of, std::size_t c) {
     const Column& column = of.columns()[c];

@@ -156,8 +156,9 @@ WideTable write_wide(const fs::path& log, const fs::path& csv, const std::vector
   Header header(wanted);
   mcap::scan(log, header, mcap::Damage::refused);
   if (header.titles.size() == 1 && header.seen.empty())
-    throw invalid({log.string()}, "holds no table of numbers of muster's; expected a log that `muster run --mcap` wrote "
-                                  "with a table recorded");
+    throw invalid({log.string()},
+                  "holds no table of numbers of muster's; expected a log that `muster run --mcap` wrote "
+                  "with a table recorded");
   for (const std::string& pattern : wanted) {
     bool is_there = false;
     for (const std::string& column : header.seen) is_there = is_there || is_wanted(column, {pattern});

@@ -15,8 +15,8 @@ struct WideTable {
   std::uint64_t replaced = 0;  // values of which a later one has the same time and name
 };
 
-// Writes CSV, whole or not at all. `wanted`: tables or columns, with a star for any names, "robot/*/pose", "link/*/rssi/rssi",
-// "robot/leader"; empty: all. Throws Error, also where nothing is wanted that the log has.
+// Writes CSV, whole or not at all. `wanted`: tables or columns, with a star for any names, "robot/*/pose",
+// "link/*/rssi/rssi", "robot/leader"; empty: all. Throws Error, also where nothing is wanted that the log has.
 WideTable write_wide(const std::filesystem::path& log, const std::filesystem::path& csv,
                      const std::vector<std::string>& wanted);
 

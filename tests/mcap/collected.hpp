@@ -43,7 +43,8 @@ inline std::vector<Collected::Kept> write_log(const std::filesystem::path& file,
   for (std::uint32_t i = 0; i < count; ++i) {
     for (const std::uint16_t channel : channels) {
       std::string data = std::to_string(i) + (channel ? " second" : " first");
-      for (std::uint32_t k = 0; data.size() < bytes; ++k) data += static_cast<char>((i * 2654435761u + k * 40503u) >> 7);
+      for (std::uint32_t k = 0; data.size() < bytes; ++k)
+        data += static_cast<char>((i * 2654435761u + k * 40503u) >> 7);
       const std::uint64_t time = i * 10'000'000ull;
       writer.message({channel, i, time, time, data});
       result.push_back({channel ? "/second" : "/first", i, time, data});

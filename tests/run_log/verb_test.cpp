@@ -66,7 +66,8 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
     expect_error(folder.muster(words), exit, message);
   };
   folder.write("a.txt", "nothing of the kind");
-  refused({"log", "info", "a.txt"}, "a.txt: byte 0: is no MCAP file; one begins with the bytes 89 4d 43 41 50 30 0d 0a");
+  refused({"log", "info", "a.txt"},
+          "a.txt: byte 0: is no MCAP file; one begins with the bytes 89 4d 43 41 50 30 0d 0a");
   refused({"log", "info", "b.mcap"}, "b.mcap: cannot be read: No such file or directory", 74);
   refused({"log", "cut", "a.txt", "--from", "1"}, "cut needs --out, the file to write");
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "2", "--to", "2"}, "--from 2 is not before --to 2");
@@ -75,9 +76,10 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
   refused({"run", world, "--plot", "robot/*/pose/x"}, "--plot needs --out, the folder to draw into");
   refused({"run", world, "--plot", "pose", "--out", "o"},
           "--plot \"pose\": expected a table and its column, such as 'robot/*/pose/x'");
-  refused({"run", world, "--plot", "robot/*/pose/quw", "--out", "o"},
-          "--plot: the table \"robot/*/pose\" has no column \"quw\" of numbers; expected one of x, y, z, qw, qx, qy, qz; "
-          "did you mean \"qw\"?");
+  refused(
+      {"run", world, "--plot", "robot/*/pose/quw", "--out", "o"},
+      "--plot: the table \"robot/*/pose\" has no column \"quw\" of numbers; expected one of x, y, z, qw, qx, qy, qz; "
+      "did you mean \"qw\"?");
   refused({"run", world, "--record", "robot/*/twist"}, "--record needs --out, the folder to write to");
   refused({"run", world, "--mcap", "a.txt/b.mcap"}, "a.txt: cannot be made: Not a directory", 74);
 }

@@ -27,7 +27,8 @@ std::string refusal(const std::function<void()>& act) {
 // rssi of a link by the names of its ends, as the blackboard has it; NaN where there is no such link.
 double rssi(const Simulation& run, const std::string& from, const std::string& to) {
   const Set& radios = *run.board().find_set("radio");
-  const TableView ends = run.table("link/*/ends"), radio = run.table("endpoint/*/radio"), level = run.table("link/*/rssi");
+  const TableView ends = run.table("link/*/ends"), radio = run.table("endpoint/*/radio"),
+                  level = run.table("link/*/rssi");
   const auto name = [&](double endpoint) {
     return radios.names[static_cast<std::size_t>(radio.at(static_cast<std::size_t>(endpoint), 0))];
   };
@@ -117,7 +118,8 @@ TEST(WideTable, RefusesWhatIsNoTable) {
     }
     return refusal([&] { run_log::write_wide(folder / "x.mcap", folder / "x.csv", {}); });
   };
-  mcap::Texts about{{"muster.table", "robot/*/pose"}, {"muster.row", "a"}, {"muster.layout", "row"}, {"muster.fields", "x[m]:real"}};
+  mcap::Texts about{
+      {"muster.table", "robot/*/pose"}, {"muster.row", "a"}, {"muster.layout", "row"}, {"muster.fields", "x[m]:real"}};
   const std::string head("\0\1\0\0", 4);
   EXPECT_EQ(refused(about, head + std::string(8, '\0')), "");
   EXPECT_THAT(refused(about, head + std::string(7, '\0')), HasSubstr("a number of 8 bytes, of which 7 are left"));
