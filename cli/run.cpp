@@ -9,6 +9,7 @@
 
 #include "live_view.hpp"
 #include "pacing.hpp"
+#include "run_log_files.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
@@ -29,11 +30,13 @@ struct RunWords : RunOptions {
   ViewSettings view_at;
   SwapDeclaration swap;  // of the verb swap
   std::string swap_at;
+  LogWords log;
 };
 
 void declare(CommandLine& line, RunWords& words) {
   line.option("world", words.world, "the world's folder or file").required();
   declare(line, static_cast<RunOptions&>(words));
+  declare(line, words.log);
   line.option("--save", words.save, "write the state at the end to this file");
   line.option("--restore", words.restore, "begin from a state that --save wrote");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks");
@@ -153,11 +156,13 @@ std::optional<double> speed_of(const RunWords& words) {
   return speed;
 }
 
-int run_world(const RunWords& words) {
+int run_world(RunWords& words) {
+  words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
   const auto speed = speed_of(words);
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
+  add_plotted(words.log, words.out, world.records);
   if (!words.swap.instance.empty()) {
     SwapDeclaration swap = words.swap;
     swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
@@ -185,6 +190,7 @@ int run_world(const RunWords& words) {
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");
   std::optional<RunRecord> record;
   std::optional<RunPictures> pictures;
+  std::optional<RunLogFiles> log;
   std::optional<TemporaryFolder> unnamed;  // of a record that is only watched
   if (words.out.empty() && words.view) unnamed.emplace();
   if (!words.out.empty() || unnamed) {
@@ -192,8 +198,12 @@ int run_world(const RunWords& words) {
     pictures.emplace(run);
     record->write(run);
     pictures->look(run);
-  } else if (!records.empty() && !words.json) {
+  } else if (!records.empty() && !words.has_log && !words.json) {
     fmt::print(stderr, "muster: note: the world records tables; --out DIR says where to\n");
+  }
+  if (words.log.any()) {
+    log.emplace(run, records, words.log, words.out);
+    log->write(run);
   }
   Watcher watcher;
   Digests digests;
@@ -211,7 +221,14 @@ int run_world(const RunWords& words) {
   const auto began = std::chrono::steady_clock::now();
   const auto finish = [&] {
     std::vector<std::filesystem::path> files;
-    if (record) files = record->close(run, outcome_of(run));
+    if (record) {
+      auto written = record->close(run, outcome_of(run));
+      if (!unnamed) files = std::move(written);
+    }
+    if (log) {
+      for (auto& file : log->close(run)) files.push_back(std::move(file));
+      for (const auto& note : log->notes()) fmt::print(stderr, "muster: note: {}\n", note);
+    }
     if (!words.save.empty()) run.snapshot().save(words.save), files.emplace_back(words.save);
     return files;
   };
@@ -219,12 +236,14 @@ int run_world(const RunWords& words) {
     if (words.expected) {
       run.evaluate(MUSTER_RADIO, true);
       if (record) record->write(run);
+      if (log) log->write(run);
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
       if (view && !view->is_due(*pacing, run.time())) break;
       run.step();
       if (record) record->write(run), pictures->look(run);
+      if (log) log->write(run);
       if (words.digest_every && run.tick() % words.digest_every == 0) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
@@ -242,7 +261,6 @@ int run_world(const RunWords& words) {
   if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
     fmt::print(stderr, "muster: warning: {}\n", late);
   if (view) view->finish(run.tick());
-  if (unnamed) files.clear();
   if (pictures && !unnamed) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }

@@ -36,7 +36,7 @@ World world_of(const std::string& path, const RunOptions& words) {
     world.seed = static_cast<uint64_t>(*seed);
   }
   for (const auto& table : words.record) world.records.push_back({table, 1, {}});
-  if (!words.record.empty() && words.out.empty())
+  if (!words.record.empty() && words.out.empty() && !words.has_log)
     throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
   return world;
 }

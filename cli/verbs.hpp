@@ -22,6 +22,7 @@ int run_features(const Arguments& arguments);
 int run_fit(const Arguments& arguments);
 int run_graph(const Arguments& arguments);
 int run_import(const Arguments& arguments);
+int run_log(const Arguments& arguments);
 int run_map(const Arguments& arguments);
 int run_new(const Arguments& arguments);
 int run_plugin_check(const Arguments& arguments);

@@ -71,11 +71,17 @@ const Storeys& storeys() {
       // A run as one page.
       {"viewer", {"plugin_api", "text", "kernel", "description"}},
 
+      // The container of logs, and a run in it.
+      {"mcap", {"text"}},
+      {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap"}},
+
       // Shares no code with what it grades.
       {"exam", {}},
       // Clients of the bridge, one file each, for programs outside.
       {"bridge", {}},
-      {"cli", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer"}},
+      {"cli",
+       {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer", "mcap",
+        "run_log"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;

@@ -1,0 +1,56 @@
+// A table as a channel of a log: its fields, as a definition that readers of ROS 2 understand, and as metadata by which
+// muster reads it back.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mcap/records.hpp"
+
+namespace muster::run_log {
+
+struct Field {
+  enum class Kind { real, text, bytes };
+  std::string name, unit;
+  Kind kind = Kind::real;
+
+  // "x[m]"
+  std::string title() const { return unit.empty() ? name : name + '[' + unit + ']'; }
+  bool operator==(const Field&) const = default;
+};
+
+enum class Layout {
+  row,     // a channel a named row: a message has its fields
+  rows,    // a message has all rows of a time
+  message  // a row of a queue a message
+};
+
+struct LoggedTable {
+  std::string table;  // "robot/*/pose"
+  std::string row;    // "leader"; for Layout::row
+  Layout layout = Layout::row;
+  std::vector<Field> fields;
+
+  bool operator==(const LoggedTable&) const = default;
+};
+
+// "/robot/leader/pose", "/link/rssi"
+std::string topic_of(const LoggedTable& table);
+// "muster/msg/RobotPose"
+std::string type_of(const LoggedTable& table);
+// Of encoding ros2msg.
+std::string definition_of(const LoggedTable& table);
+mcap::Texts metadata_of(const LoggedTable& table);
+
+// Null where the channel is none of muster's tables. Throws mcap::Malformed where its metadata are damaged.
+std::optional<LoggedTable> table_of(const mcap::Channel& channel);
+
+// One row's numbers: `name` is the table with the row's names in place of the star, "link/base/rover/rssi".
+using TakeReal = std::function<void(const std::string& name, const Field& field, double value)>;
+// Throws mcap::Malformed where the message is not what the fields say.
+void read_message(const LoggedTable& table, std::string_view data, const TakeReal& take);
+
+}  // namespace muster::run_log
