@@ -93,11 +93,11 @@ TEST(SimulatedReadings, KnowARadioThatOnlyMeasuredReadingsName) {
   SimulatedReadings simulated(all, radios, hall.world, plugins, hall.at.base);
   EXPECT_LT((simulated.slopes(hall.at.base) - hall.at.problem.base).cwiseAbs().maxCoeff(), 1e-9);
   const auto& found = hall.at.sought.found;
-  const auto offset = std::find_if(found.begin(), found.end(),
-                                   [](const CauseCandidate& c) { return c.candidate.id == "effect.tx_offset"; });
-  ASSERT_NE(offset, found.end());
-  CauseCandidate of_b4 = *offset;
-  CauseShape shape = *offset->shape;
+  const auto of_a_radio =
+      std::find_if(found.begin(), found.end(), [](const CauseCandidate& c) { return c.shape->set() == "radio"; });
+  ASSERT_NE(of_a_radio, found.end());
+  CauseCandidate of_b4 = *of_a_radio;
+  CauseShape shape = *of_a_radio->shape;
   shape.rows.back() = {"b4"};
   of_b4.shape = std::make_shared<const CauseShape>(shape);
   const inference::Candidate at = simulated.at(of_b4);
