@@ -63,11 +63,21 @@ class Nearest {
 };
 
 template <class Admits>
-void search(const Grove& grove, const Eigen::VectorXd& from, int most, Admits admits, Index* slots) {
-  if (most == 0) return;
+std::vector<Index> search(const Grove& grove, const Eigen::VectorXd& from, int most, Admits admits) {
+  if (most == 0) return {};
   Nearest nearest(static_cast<std::size_t>(most), admits);
   grove.tree->findNeighbors(nearest, from.data(), nanoflann::SearchParams());
-  for (const auto& [distance, point] : nearest.found()) *slots++ = grove.cloud.rows[point];
+  std::vector<Index> result;
+  for (const auto& [distance, point] : nearest.found()) result.push_back(grove.cloud.rows[point]);
+  return result;
+}
+
+// At most `most` rows: `instead` at the end, and the first of the others.
+std::vector<Index> with_last(std::vector<Index> rows, const std::vector<Index>& instead, std::size_t most) {
+  std::erase_if(rows, [&](Index row) { return std::find(instead.begin(), instead.end(), row) != instead.end(); });
+  rows.resize(std::min(rows.size(), most - instead.size()));
+  rows.insert(rows.end(), instead.begin(), instead.end());
+  return rows;
 }
 
 std::vector<Index> random_ranks(Index n, uint64_t seed) {
@@ -86,7 +96,8 @@ std::vector<Index> random_ranks(Index n, uint64_t seed) {
 std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditioning) {
   const Index n = sites.size();
   const auto rank = random_ranks(n, conditioning.seed);
-  // Of rows of one site those of the same stream come first: what is fixed to it is known from them alone.
+  // Of rows of one site those of the same stream come first: what is fixed to it is known from them alone. Up to half
+  // are of its other streams, without which no row would tell how two streams differ.
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(7, n);
   both.topRows(6) << sites.place, sites.anchor;
   for (std::size_t i = 0; i < sites.stream.size(); ++i)
@@ -108,14 +119,29 @@ std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditi
     const auto earlier = [&](Index j) { return rank[static_cast<std::size_t>(j)] < rank[static_cast<std::size_t>(i)]; };
     Index* const slots = result.data() + i * conditioning.slots();
     const Grove& own = groves.at(group);
-    search(
-        own, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); }, slots);
+    const auto most = static_cast<std::size_t>(conditioning.same);
+    std::vector<Index> near =
+        search(own, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); });
+    if (!sites.stream.empty()) {
+      near = with_last(
+          std::move(near),
+          search(own, both.col(i), conditioning.same / 2,
+                 [&](std::size_t p) {
+                   const Index row = own.cloud.rows[p];
+                   return sites.stream[static_cast<std::size_t>(row)] != sites.stream[static_cast<std::size_t>(i)] &&
+                          (both.col(row) - both.col(i)).head(6).norm() < inference::thresholds::same_site &&
+                          earlier(row);
+                 }),
+          most);
+    }
+    std::copy(near.begin(), near.end(), slots);
     if (of_group.size() < 2) continue;
     const auto other = [&](std::size_t p) {
       const Index row = everywhere.cloud.rows[p];
       return sites.group[static_cast<std::size_t>(row)] != group && earlier(row);
     };
-    search(everywhere, sites.place.col(i), conditioning.others, other, slots + conditioning.same);
+    const std::vector<Index> others = search(everywhere, sites.place.col(i), conditioning.others, other);
+    std::copy(others.begin(), others.end(), slots + conditioning.same);
   }
   return result;
 }

@@ -1,10 +1,14 @@
 // Logs as people keep them: radios that the world does not list, a carrier that it does not state.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
+#include "muster/random.hpp"
 #include "tests/diagnosis/pipeline/flat.hpp"
 
 namespace muster::diagnosis {
@@ -51,6 +55,40 @@ TEST(FieldLog, AnOffsetOfARadioThatTheWorldDoesNotList) {
   const Scratch out;
   const auto extended = write_extended_world(without, bare, out / "w");
   EXPECT_EQ(LinkModel(extended, data, plugins).added_radios(), (std::vector<std::string>{"phone1", "phone3"}));
+}
+
+// Nine radios that stand and hear each other every hour. Each link has a shadowing of its own, the same both ways, and
+// one radio sends 1.5 dB too little. A share of the noise that is fixed to each direction would take that up.
+TEST(FieldLog, ARadioOfAMeshThatSendsTooLittleIsNoNoiseOfItsLinks) {
+  const Scratch scratch;
+  const Stream random(key_of("mesh"));
+  std::string radios, table = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  std::vector<Eigen::Vector2d> at;
+  for (uint64_t k = 0; k < 9; ++k) {
+    at.emplace_back(24 * random.uniform(k, 0), 16 * random.uniform(k, 1));
+    radios += fmt::format("<station name=\"n{}\" at=\"{} {} 1\"/>", k, at[k].x(), at[k].y());
+  }
+  for (uint64_t hour = 0; hour < 40; ++hour) {
+    for (uint64_t tx = 0; tx < 9; ++tx) {
+      for (uint64_t rx = 0; rx < 9; ++rx) {
+        if (rx == tx) continue;
+        const double shadowing = 3.7 * random.of(9).normal(std::min(tx, rx), std::max(tx, rx));
+        const double noise = 1.4 * random.of(10).normal(hour, 9 * tx + rx);
+        const double level =
+            1 - 35 - 20 * std::log10((at[tx] - at[rx]).norm()) + shadowing + noise - (tx == 4 ? 1.5 : 0);
+        table += fmt::format("{},n{},n{},{},{},{},{},{}\n", 3600 * hour + tx, tx, rx, at[tx].x(), at[tx].y(),
+                             at[rx].x(), at[rx].y(), std::lround(level));
+      }
+    }
+  }
+  std::ofstream(scratch / "measured.csv") << table;
+  const auto world = world_of(
+      scratch, "world.xml",
+      radios + "<radio.fading shadowing=\"3.7\" decorrelation=\"0.5\" rician_k=\"13.5\" per_reading=\"true\"/>");
+  const Diagnosis found = diagnose(world, scratch / "measured.csv", plugins);
+  ASSERT_EQ(found.causes.size(), 1u);
+  EXPECT_EQ(found.causes[0].label, "radio/n4");
+  EXPECT_NEAR(std::abs(found.causes[0].values[0].value), 1.5, 0.4) << found.causes[0].id;
 }
 
 // Places in no order, so that distance is not time. Two radios at one height over open ground, at 433 MHz. The world
