@@ -9,7 +9,7 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/backward_elimination.hpp"
-#include "diagnosis/inference/select/selection_over_noise.hpp"
+#include "diagnosis/inference/select/selection_over_ranges.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
@@ -37,7 +37,7 @@ Search::Search(const Problem& problem, const Options& options)
 Result Search::run() {
   result_ = {};
   const Watch watch = state_->options().watch;  // the state may become another one
-  selection_over_noise(state_, result_.trials);
+  selection_over_ranges(state_, result_.trials);
   watch.at("checking the findings at left-out places");
   withdraw_refuted();
   const std::vector<Term> aside = backward_elimination(*state_, result_.trials);

@@ -1,5 +1,5 @@
 // Selection where places reach far: a field may be as long as they are apart in proportion.
-#include "diagnosis/inference/select/selection_over_noise.hpp"
+#include "diagnosis/inference/select/selection_over_ranges.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ std::unique_ptr<ModelState> selected(const Problem& problem, double reach) {
   options.prior = options.prior.widened(reach);
   auto state = std::make_unique<ModelState>(problem, options);
   std::vector<Trial> trials;
-  selection_over_noise(state, trials);
+  selection_over_ranges(state, trials);
   return state;
 }
 
@@ -58,7 +58,7 @@ TEST(Prior, IsTheUsualOneUpToItsReachAndHasRoomInProportionBeyond) {
 }
 
 // With room for short fields alone nearly every such world gets a name.
-TEST(SelectionOverNoise, FindsLessInALongFieldAlone) {
+TEST(SelectionOverRanges, FindsLessInALongFieldAlone) {
   int with_long_fields = 0, with_short_fields = 0;
   for (uint64_t seed = 1; seed <= 4; ++seed) {
     const Worlds worlds(seed);
@@ -73,7 +73,7 @@ TEST(SelectionOverNoise, FindsLessInALongFieldAlone) {
   EXPECT_GE(with_short_fields, 3);
 }
 
-TEST(SelectionOverNoise, FindsAStepInAFieldOfTwoHundredMetres) {
+TEST(SelectionOverRanges, FindsAStepInAFieldOfTwoHundredMetres) {
   int found = 0;
   for (uint64_t seed = 11; seed <= 12; ++seed) {
     const Worlds worlds(seed);

@@ -1,4 +1,4 @@
-#include "diagnosis/inference/select/selection_over_noise.hpp"
+#include "diagnosis/inference/select/selection_over_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,44 +45,22 @@ bool same_terms(const ModelState& one, const ModelState& other) {
                     });
 }
 
-// The same problem beside fields of the usual range.
-std::unique_ptr<ModelState> with_usual_ranges(const ModelState& state) {
-  Options options = state.options();
-  if (!options.prior.is_wider()) return nullptr;
-  options.prior = options.prior.narrowed();
-  return std::make_unique<ModelState>(state.problem(), options);
-}
-
-// The same problem, begun with the likeliest noise of which no share is fixed to a stream.
-std::unique_ptr<ModelState> with_streams_alike(const ModelState& state) {
-  if (!noise::fixed_to_stream(state.families.front().covariance.family)) return nullptr;
-  const auto alike = std::find_if(state.families.begin(), state.families.end(), [](const noise::Fit& fit) {
-    return !noise::fixed_to_stream(fit.covariance.family);
-  });
-  if (alike == state.families.end()) return nullptr;
-  auto result = std::make_unique<ModelState>(state.problem(), state.options());
-  result->fit = *alike;
-  return result;
-}
-
 }  // namespace
 
-void selection_over_noise(std::unique_ptr<ModelState>& state, std::vector<Trial>& trials) {
-  std::vector<std::unique_ptr<ModelState>> others;
-  for (auto* const other : {with_usual_ranges, with_streams_alike}) {
-    if (auto made = other(*state)) others.push_back(std::move(made));
-  }
+void selection_over_ranges(std::unique_ptr<ModelState>& state, std::vector<Trial>& trials) {
   forward_selection(*state, trials);
-  for (auto& other : others) {
-    std::vector<Trial> its_trials;
-    if (!state->options().watch.stop()) forward_selection(*other, its_trials);
-    if (state->options().watch.stop()) return;
-    if (same_terms(*state, *other)) continue;
-    const Ground ground(*state);
-    if (ground.evidence(*other) < ground.evidence(*state) - std::log(thresholds::first_alpha)) continue;
-    state = std::move(other);
-    trials = std::move(its_trials);
-  }
+  const Options& options = state->options();
+  if (!options.prior.is_wider() || options.watch.stop()) return;
+  Options usual = options;
+  usual.prior = usual.prior.narrowed();
+  auto other = std::make_unique<ModelState>(state->problem(), usual);
+  std::vector<Trial> others;
+  forward_selection(*other, others);
+  if (options.watch.stop() || same_terms(*state, *other)) return;
+  const Ground ground(*state);
+  if (ground.evidence(*other) < ground.evidence(*state) - std::log(thresholds::first_alpha)) return;
+  state = std::move(other);
+  trials = std::move(others);
 }
 
 }  // namespace muster::inference
