@@ -70,6 +70,21 @@ TEST(FixedShare, IsOfOneSite) {
   EXPECT_EQ(RecurringSites(moved).of(0, 60), Relation::apart);
 }
 
+// Rows that knew those of their own direction alone would hardly tell how the two differ.
+TEST(FixedShare, LeavesADirectionsOffsetMostOfItsInformation) {
+  const Sites sites = mesh(20, 12);
+  const Field field(sites);
+  Eigen::VectorXd offset(sites.size());
+  for (Index i = 0; i < sites.size(); ++i) offset[i] = sites.stream[static_cast<std::size_t>(i)];
+  for (const bool to_stream : {false, true}) {
+    const Covariance c{with_fixed(Family::exponential, to_stream ? 0 : 4, to_stream), some};
+    const double exact = offset.dot(dense(sites, c).llt().solve(offset));
+    const double known = Whitener(field, c)(offset).squaredNorm();
+    EXPECT_GT(known, 0.85 * exact) << name_of(c.family);
+    EXPECT_LT(known, 1.2 * exact) << name_of(c.family);
+  }
+}
+
 TEST(FixedShare, OnlyWhereSitesRecur) {
   EXPECT_EQ(all_fixed().size(), 2 * fixed_shares.size());
   Sites sites = mesh(60, 1);

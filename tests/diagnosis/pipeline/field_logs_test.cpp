@@ -82,9 +82,8 @@ TEST(FieldLog, ARadioOfAMeshThatSendsTooLittleIsNoNoiseOfItsLinks) {
     }
   }
   std::ofstream(scratch / "measured.csv") << table;
-  const auto world = world_of(
-      scratch, "world.xml",
-      radios + "<radio.fading shadowing=\"3.7\" decorrelation=\"0.5\" rician_k=\"13.5\" per_reading=\"true\"/>");
+  const auto world = world_of(scratch, "world.xml",
+                              radios + "<radio.fading shadowing=\"3.7\" decorrelation=\"0.5\" fading=\"false\"/>");
   const Diagnosis found = diagnose(world, scratch / "measured.csv", plugins);
   ASSERT_EQ(found.causes.size(), 1u);
   EXPECT_EQ(found.causes[0].label, "radio/n4");
