@@ -88,7 +88,7 @@ bool Session::greet(const muster_host* host, const muster_tick& tick) {
       reader.raw(magic.size()) != magic)
     throw Malformed("a first frame that is no JOIN of " + std::string(magic));
   is_silent_ = false;
-  owed_ = 0;
+  owed_.reset();
   if (had_client_) host->event(host, "a client is there again");
   had_client_ = true;
   return peer_->send(tables_frame(host, tick), settings_.timeout);
@@ -150,7 +150,7 @@ std::vector<GivenRows> Session::exchange(const muster_host* host, const muster_t
       if (!is_answered(host, frame, 0)) return {};
       parsed(frame, host, tick, out);
       host->event(host, "the client answers again");
-      owed_ = 0;
+      owed_.reset();
       is_silent_ = false;
     }
     FrameWriter state(Kind::state);
@@ -163,7 +163,7 @@ std::vector<GivenRows> Session::exchange(const muster_host* host, const muster_t
     owed_ = tick.index;
     if (!is_answered(host, frame, settings_.timeout)) return {};
     auto result = parsed(frame, host, tick, out);
-    owed_ = 0;
+    owed_.reset();
     return result;
   } catch (const Malformed& wrong) {
     const std::string what = "the client sent " + std::string(wrong.what());

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,7 @@ class Session {
   std::vector<Port> ports_;
   std::unique_ptr<Peer> peer_;
   std::map<std::string, uint32_t> told_;  // names of rows that the client knows, of a set
-  uint64_t owed_ = 0;                     // the tick whose commands are late; 0: none
+  std::optional<uint64_t> owed_;          // the tick whose commands are late
   bool had_client_ = false, is_silent_ = false;
 };
 

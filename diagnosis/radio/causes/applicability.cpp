@@ -27,7 +27,7 @@ std::string own_column(const Cause& cause) {
 
 std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const Dataset& data) {
   if (needs(cause, "t") && !(survey.has_time && survey.time.length() > 0)) return "not testable: the data have no t";
-  if (needs(cause, "rx_yaw") && !survey.has_yaw) return "not testable: the data have no rx_yaw";
+  if (needs(cause, "rx_yaw") && !survey.has_yaw) return "not testable: the data have no rx_yaw or tx_yaw";
   if (needs(cause, "tx_x") && !survey.has_places) return "not testable: the data have distances, and no places";
   const std::string column = own_column(cause);
   if (column.empty()) return "";
@@ -63,7 +63,8 @@ std::vector<std::string> names_in(const std::string& set, const LinkModel& model
 std::vector<std::string> names_for(const Cause& cause, const muster_param& row, const LinkModel& model,
                                    const MeasurementGeometry& survey) {
   std::vector<std::string> result;
-  if (!(row.flags & MUSTER_REQUIRED)) result.push_back("");
+  // Without a radio it is about every receiver.
+  if (!(row.flags & MUSTER_REQUIRED) && (survey.receivers_have_yaw || !needs(cause, "rx_yaw"))) result.push_back("");
   for (const std::string& name : names_in(row.text, model)) {
     if (needs(cause, "walls") && !survey.counted.count(name)) continue;
     const auto number = static_cast<std::size_t>(model.simulation().board().find_set(row.text)->find(name));

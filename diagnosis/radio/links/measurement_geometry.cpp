@@ -199,7 +199,8 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   survey.has_time = !data.t.empty();
   survey.sampling = sampling_interval(data.t);
   survey.level = middle_of(data.rssi);
-  survey.has_yaw = !data.rx_yaw.empty();
+  survey.receivers_have_yaw = !data.rx_yaw.empty();
+  survey.has_yaw = survey.receivers_have_yaw || !data.tx_yaw.empty();
   survey.has_places = data.has_places();
   for (const Covariate& c : data.covariates) {
     const bool whole = std::none_of(c.values.begin(), c.values.end(), [](double v) { return std::isnan(v); });

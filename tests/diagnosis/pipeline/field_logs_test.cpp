@@ -90,6 +90,38 @@ TEST(FieldLog, ARadioOfAMeshThatSendsTooLittleIsNoNoiseOfItsLinks) {
   EXPECT_NEAR(std::abs(found.causes[0].values[0].value), 1.5, 0.4) << found.causes[0].id;
 }
 
+// A robot that sends, and stations that listen: its heading is that of the sender.
+TEST(FieldLog, AnAntennaOnARobotThatSends) {
+  const Scratch scratch;
+  std::string places = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m]\n";
+  std::vector<std::string> rows;
+  double t = 0;
+  for (int lane = 0; lane < 21; ++lane) {
+    for (double along = 0.4; along < 8.6; along += 0.35, t += 0.7) {
+      for (const char* station : {"s1", "s2", "s3"})
+        rows.push_back(fmt::format("{},rover,{},{},{},0.4,{},{}", t, station, 0.7 + 0.6 * lane,
+                                   lane % 2 ? 9 - along : along, (lane % 2 ? -1.57 : 1.57) + 0.4 * std::sin(along),
+                                   station[1] == '1'   ? "1,1,1.5"
+                                   : station[1] == '2' ? "13,8,1.2"
+                                                       : "9,1,2"));
+    }
+  }
+  for (const std::string& row : rows) places += row + '\n';
+  std::ofstream(scratch / "places.csv") << places;
+  const std::string steady = "rician_k=\"8\" per_reading=\"true\"";
+  const auto truth = flat(scratch, 3, steady, "<effect.antenna_rx radio=\"rover\" amplitude=\"3\" direction=\"1\"/>");
+  const Eigen::VectorXd drawn = LinkModel(truth, scratch / "places.csv", plugins).drawn();
+  std::ofstream measured(scratch / "measured.csv");
+  measured << places.substr(0, places.find('\n')) << ",rssi[dBm]\n";
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    measured << rows[i] << ',' << print_real(drawn[static_cast<Eigen::Index>(i)]) << '\n';
+  measured.close();
+  const Diagnosis found = diagnose(flat(scratch, 4, steady), scratch / "measured.csv", plugins);
+  EXPECT_EQ(names_in_words(named_causes(found)), "effect.antenna_rx radio/rover");
+  ASSERT_EQ(found.causes.size(), 1u);
+  EXPECT_NEAR(found.causes[0].values.at(0).value, 3, 0.6);
+}
+
 // Places in no order, so that distance is not time. Two radios at one height over open ground, at 433 MHz. The world
 // has no term with a carrier: it is sought.
 TEST(Carrier, IsSoughtWhereTheWorldHasNone) {
