@@ -208,8 +208,8 @@ VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosi
   const auto grazes = unsure.array() > thresholds::grazing_change;
   if (const Index count = grazes.count())
     found.notes.push_back(fmt::format(
-        "{} of {} readings pass within {:.0f} mm of where a wall ends: how single readings scatter is asked without "
-        "them",
+        "{} of {} readings would cross other walls if they were {:.0f} mm off: how single readings scatter is asked "
+        "without them",
         count, residual.size(), 1000 * thresholds::grazing));
   return grazes.select(std::nan(""), residual);
 }

@@ -271,7 +271,7 @@ TEST(GrazingLinks, AreNoOutliers) {
   const auto world = made_case(scratch, "--seed 74 --rows 2000 20000 --mix clean", 841);
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   EXPECT_STREQ(found.verdict(), "adequate") << told(found);
-  const auto says = [&](const std::string& note) { return note.find("of where a wall ends or begins") != note.npos; };
+  const auto says = [&](const std::string& note) { return note.find("would cross other walls") != note.npos; };
   EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
 }
 
