@@ -14,13 +14,20 @@ namespace {
 using synthetic::varied;
 using synthetic::world_of;
 
+struct Dealt {
+  synthetic::World world = world_of(varied(15, 3000));
+  noise::Rows rows = diagnosis::link_rows(world.readings);
+  noise::Sites sites = diagnosis::link_sites(rows, world.readings);
+  noise::Covariance c{noise::Family::exponential, world.true_theta};
+  Folds folds{sites, blocks_of(sites, c), rows.row_of(), c, 1};
+};
+
 TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndCoverAllReadings) {
-  const auto world = world_of(varied(15, 3000));
-  const noise::Rows rows = diagnosis::link_rows(world.readings);
-  const noise::Sites sites = diagnosis::link_sites(rows, world.readings);
-  const noise::Covariance c{noise::Family::exponential, world.true_theta};
-  const Folds folds(sites, blocks_of(sites, c), rows.row_of(), c, 1);
-  const double side = 3 * c.decorrelation();
+  const Dealt dealt;
+  const auto& world = dealt.world;
+  const auto& rows = dealt.rows;
+  const Folds& folds = dealt.folds;
+  const double side = 3 * dealt.c.decorrelation();
   EXPECT_LE(folds.blocks(), std::ceil(24 / side) * std::ceil(16 / side));
   EXPECT_GE(folds.blocks(), 8);
   // A mean within the design is predicted exactly; one outside is not.
@@ -40,11 +47,9 @@ TEST(Folds, BlocksAreThreeDecorrelationDistancesWideAndCoverAllReadings) {
 
 // A receiver that reports nothing below -70 dBm says nothing of how far below a level is.
 TEST(Folds, MissABoundByWhatItForbids) {
-  const auto world = world_of(varied(15, 3000));
-  const noise::Rows rows = diagnosis::link_rows(world.readings);
-  const noise::Sites sites = diagnosis::link_sites(rows, world.readings);
-  const noise::Covariance c{noise::Family::exponential, world.true_theta};
-  const Folds folds(sites, blocks_of(sites, c), rows.row_of(), c, 1);
+  const Dealt dealt;
+  const auto& world = dealt.world;
+  const auto& rows = dealt.rows;
   const Eigen::VectorXd level = world.base * Eigen::Vector3d(-30, 2, 5), clipped = level.cwiseMax(-70);
   noise::Bounds bounds{std::vector<noise::Known>(static_cast<std::size_t>(level.size()), noise::Known::value), 0.5};
   for (Index i = 0; i < level.size(); ++i) {
@@ -52,8 +57,8 @@ TEST(Folds, MissABoundByWhatItForbids) {
   }
   ASSERT_TRUE(bounds.any());
   const Sample of_rows{rows.mean(level), rows.mean(world.base)};
-  EXPECT_LT(folds.squared_errors(of_rows, {clipped, world.base, &bounds}).maxCoeff(), 1e-12);
-  EXPECT_GT(folds.squared_errors(of_rows, {clipped, world.base}).maxCoeff(), 1);
+  EXPECT_LT(dealt.folds.squared_errors(of_rows, {clipped, world.base, &bounds}).maxCoeff(), 1e-12);
+  EXPECT_GT(dealt.folds.squared_errors(of_rows, {clipped, world.base}).maxCoeff(), 1);
 }
 
 }  // namespace
