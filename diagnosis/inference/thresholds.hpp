@@ -16,9 +16,6 @@ namespace muster::inference::thresholds {
 inline constexpr double prior_log_decorrelation = 0.5878;
 // ln m; prior standard deviation of the decorrelation distance, a factor of two; chosen; none
 inline constexpr double prior_decorrelation_spread = 0.7;
-// m; extent of the places up to which that prior holds. Longer fields are likely where places reach farther; chosen;
-// SelectionOverRanges.FindsAStepInAFieldOfTwoHundredMetres
-inline constexpr double usual_reach = 60;
 // logit; prior mean of the share of the field that groups have in common; chosen; none
 inline constexpr double prior_logit_shared = -1.5;
 // logit; prior standard deviation of that share; chosen; none

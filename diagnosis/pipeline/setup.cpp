@@ -147,14 +147,6 @@ inference::Problem problem_of(const DiagnosisSetup& at) {
   return problem;
 }
 
-// Fields may be long where the places of the readings lie far apart.
-inference::Options options_for(const LinkLayout& layout, const noise::Rows& rows) {
-  const Eigen::Matrix3Xd places = layout.sites(rows).place;
-  inference::Options options;
-  options.prior = options.prior.widened((places.rowwise().maxCoeff() - places.rowwise().minCoeff()).norm());
-  return options;
-}
-
 }  // namespace
 
 DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& table,
@@ -179,7 +171,6 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       rows(layout->rows()),
       sketched(sketched_readings({world, table, plugins, model, base, used.rows, layout, rows})),
       sought(candidates_of(*this, {world, table, plugins, model, base, used.rows, layout, rows})),
-      problem(problem_of(*this)),
-      options(options_for(*layout, rows)) {}
+      problem(problem_of(*this)) {}
 
 }  // namespace muster::diagnosis

@@ -9,7 +9,6 @@
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/backward_elimination.hpp"
-#include "diagnosis/inference/select/selection_over_ranges.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
@@ -31,24 +30,23 @@ const Problem& checked(const Problem& problem) {
 
 }  // namespace
 
-Search::Search(const Problem& problem, const Options& options)
-    : state_(std::make_unique<ModelState>(checked(problem), options)) {}
+Search::Search(const Problem& problem, const Options& options) : state_(checked(problem), options) {}
 
 Result Search::run() {
   result_ = {};
-  const Watch watch = state_->options().watch;  // the state may become another one
-  selection_over_ranges(state_, result_.trials);
+  const Watch& watch = state_.options().watch;
+  forward_selection(state_, result_.trials);
   watch.at("checking the findings at left-out places");
   withdraw_refuted();
-  const std::vector<Term> aside = backward_elimination(*state_, result_.trials);
+  const std::vector<Term> aside = backward_elimination(state_, result_.trials);
   withdraw_refuted();
   watch.at("intervals and alternatives of the findings");
   const std::vector<ParameterUncertainty> spreads = settle_in_the_middle();
-  for (std::size_t k = 0; k < state_->terms.size(); ++k) {
-    const Term& term = state_->terms[k];
+  for (std::size_t k = 0; k < state_.terms.size(); ++k) {
+    const Term& term = state_.terms[k];
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::named));
     Finding& finding = result_.findings.back();
-    finding.alternatives = alternatives_of(*state_, term);
+    finding.alternatives = alternatives_of(state_, term);
     std::erase_if(finding.alternatives, [](const Alternative& r) { return !left_open(r); });
     if (term.smooth()) continue;
     finding.uncertainty = spreads[k].coefficients;
@@ -57,40 +55,40 @@ Result Search::run() {
   for (const Term& term : aside)
     result_.findings.push_back(finding_of(term, term.smooth() ? Status::unexplained : Status::suspected));
   watch.at("held-out errors");
-  result_.noise = state_->fit;
-  result_.families = state_->families;
-  const Eigen::MatrixXd design = state_->design();
-  const WhitenedModel model = state_->whitened_model(design);
+  result_.noise = state_.fit;
+  result_.families = state_.families;
+  const Eigen::MatrixXd design = state_.design();
+  const WhitenedModel model = state_.whitened_model(design);
   const Eigen::VectorXd coefficients = model.coefficients(design.cols());
-  result_.base_coefficients = coefficients.head(state_->sensitivities());
+  result_.base_coefficients = coefficients.head(state_.sensitivities());
   result_.mean = design * coefficients;
-  add_held_out_gains(*state_, result_);
+  add_held_out_gains(state_, result_);
   check_what_is_left(result_, model);
   return result_;
 }
 
 // The worst first: each leaves another model and another covariance behind.
 void Search::withdraw_refuted() {
-  while (const auto worst = most_refuted(*state_)) {
-    const Term& term = state_->terms[*worst];
+  while (const auto worst = most_refuted(state_)) {
+    const Term& term = state_.terms[*worst];
     result_.trials.push_back({term.candidate->id, term.candidate->label_of(term.theta), term.gain, term.log_p,
                               term.log_p, false, "refuted by readings at places left out"});
-    state_->terms.erase(state_->terms.begin() + static_cast<std::ptrdiff_t>(*worst));
-    state_->refit();
+    state_.terms.erase(state_.terms.begin() + static_cast<std::ptrdiff_t>(*worst));
+    state_.refit();
   }
-  measure_gains(*state_);
+  measure_gains(state_);
 }
 
 std::vector<ParameterUncertainty> Search::settle_in_the_middle() {
   std::vector<ParameterUncertainty> result;
-  for (Term& term : state_->terms) {
-    result.push_back(term.smooth() ? ParameterUncertainty() : parameter_uncertainty(*state_, term));
+  for (Term& term : state_.terms) {
+    result.push_back(term.smooth() ? ParameterUncertainty() : parameter_uncertainty(state_, term));
     if (result.back().thetas.size() < 2) continue;
-    term.theta = middle_of(*state_, term, result.back());
-    term.columns = state_->columns_of(*term.candidate, term.theta);
-    state_->refit(4);
+    term.theta = middle_of(state_, term, result.back());
+    term.columns = state_.columns_of(*term.candidate, term.theta);
+    state_.refit(4);
   }
-  measure_gains(*state_);
+  measure_gains(state_);
   return result;
 }
 
@@ -98,7 +96,7 @@ std::vector<ParameterUncertainty> Search::settle_in_the_middle() {
 // their number (Bonferroni).
 void Search::check_what_is_left(Result& result, const WhitenedModel& model) {
   std::map<std::string, std::pair<std::size_t, double>> along;  // index of the check, number of smooths
-  for (const ScoredCandidate& lead : scored_candidates(*state_, model)) {
+  for (const ScoredCandidate& lead : scored_candidates(state_, model)) {
     const Candidate& c = lead.candidate();
     const Check check{c.kind == Kind::smooth ? "~" + c.own() : c.id, c.label_of(lead.theta), c.kind, lead.gain,
                       lead.log_p};
@@ -116,8 +114,8 @@ void Search::check_what_is_left(Result& result, const WhitenedModel& model) {
 }
 
 Finding Search::finding_of(const Term& term, Status status) const {
-  const Eigen::MatrixXd design = noise::hstack(state_->design_without(term), term.columns);
-  const WhitenedModel model = state_->whitened_model(design);
+  const Eigen::MatrixXd design = noise::hstack(state_.design_without(term), term.columns);
+  const WhitenedModel model = state_.whitened_model(design);
   const Index width = term.columns.cols();
   Finding finding{term.id(),
                   term.candidate->label_of(term.theta),
@@ -154,8 +152,8 @@ std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
   std::vector<Advice> result;
   for (const Plan& plan : plans) {
     std::optional<ExpectedSeparability> planned;  // built on first use
-    for (std::size_t k = 0; k < state_->terms.size(); ++k) {
-      if (state_->terms[k].smooth()) continue;  // a smooth predicts nothing for readings elsewhere
+    for (std::size_t k = 0; k < state_.terms.size(); ++k) {
+      if (state_.terms[k].smooth()) continue;  // a smooth predicts nothing for readings elsewhere
       const Finding& finding = result_.findings[k];
       std::vector<const Alternative*> open = open_rivals(finding);
       std::erase_if(open, [&](const Alternative* alternative) { return !plan.knows(alternative->id); });
@@ -163,8 +161,8 @@ std::vector<Advice> Search::advise(const std::vector<Plan>& plans) {
       std::vector<std::string> ids(open.size());
       std::transform(open.begin(), open.end(), ids.begin(),
                      [](const Alternative* alternative) { return alternative->id; });
-      if (!planned) planned.emplace(*state_, plan);
-      const std::vector<double> predicted = planned->separability(state_->terms[k], ids);
+      if (!planned) planned.emplace(state_, plan);
+      const std::vector<double> predicted = planned->separability(state_.terms[k], ids);
       for (std::size_t r = 0; r < open.size(); ++r)
         result.push_back({plan.say, finding.id, ids[r], open[r]->separability, predicted[r]});
     }

@@ -1,8 +1,6 @@
 // Searches for a model's errors, names their causes where possible, and quantifies the uncertainty.
 #pragma once
 
-#include <memory>
-
 #include "diagnosis/inference/assess/expected_separability.hpp"
 #include "diagnosis/inference/assess/finding.hpp"
 #include "diagnosis/inference/assess/parameter_uncertainty.hpp"
@@ -23,7 +21,7 @@ class Search {
   // After run(): expected separability of each plan for every named finding and undecided alternative (D < 25).
   std::vector<Advice> advise(const std::vector<Plan>& plans);
 
-  const ModelState& state() const { return *state_; }
+  const ModelState& state() const { return state_; }
 
  private:
   Finding finding_of(const Term& term, Status status) const;
@@ -33,7 +31,7 @@ class Search {
   std::vector<ParameterUncertainty> settle_in_the_middle();
   void check_what_is_left(Result& result, const WhitenedModel& model);
 
-  std::unique_ptr<ModelState> state_;
+  ModelState state_;
   Result result_;
 };
 

@@ -1,7 +1,5 @@
 #include "diagnosis/inference/noise/reml.hpp"
 
-#include <cmath>
-
 #include "diagnosis/inference/noise/columns.hpp"
 
 namespace muster::noise {
@@ -19,23 +17,6 @@ PriorTerm on_share(const Covariance& c, const Prior& p) {
 }
 
 }  // namespace
-
-Prior Prior::widened(double reach) const {
-  Prior result = narrowed();
-  if (!(reach > inference::thresholds::usual_reach)) return result;
-  result.reaching = std::log(reach / inference::thresholds::usual_reach);
-  result.log_decorrelation += result.reaching / 2;
-  result.decorrelation_spread += result.reaching / 2;
-  return result;
-}
-
-Prior Prior::narrowed() const {
-  Prior result = *this;
-  result.log_decorrelation -= reaching / 2;
-  result.decorrelation_spread -= reaching / 2;
-  result.reaching = 0;
-  return result;
-}
 
 Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                   const Prior& prior) {

@@ -14,17 +14,9 @@ struct Prior {
   double logit_shared = inference::thresholds::prior_logit_shared;
   double shared_spread = inference::thresholds::prior_shared_spread;
 
-  // The same where places reach `reach` [m]: beyond the usual ones fields may be longer in proportion. Their mean and
-  // spread grow alike, so that short ones stay as likely.
-  Prior widened(double reach) const;
-  bool is_wider() const { return reaching > 0; }
-  Prior narrowed() const;  // without that
-
-  Theta lower() const { return {-3, log_decorrelation - reaching / 2 - 3, -3, logit_shared - 4}; }
-  Theta upper() const { return {9, log_decorrelation + reaching / 2 + 2.4, 9, logit_shared + 4}; }
+  Theta lower() const { return {-3, log_decorrelation - 3, -3, logit_shared - 4}; }
+  Theta upper() const { return {9, log_decorrelation + 2.4, 9, logit_shared + 4}; }
   Theta inside(const Theta& theta) const { return theta.cwiseMax(lower()).cwiseMin(upper()); }
-
-  double reaching = 0;  // logarithm of the reach over the usual one
 };
 
 struct Objective {
