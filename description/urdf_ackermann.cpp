@@ -11,8 +11,6 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr double placement_tolerance = 1e-4;  // [m], as for other drives
-constexpr double axis_tolerance = 1e-6;       // of a unit vector
 constexpr double quarter_turn = 1.5707963267948966;
 
 // Frame of a joint on the body, while all kingpins are straight.

@@ -12,6 +12,10 @@
 
 namespace muster::description {
 
+// What a drive or a leg may differ from its joints before that is a mistake: [m], and of a unit vector.
+constexpr double placement_tolerance = 1e-4;
+constexpr double axis_tolerance = 1e-6;
+
 // A place in a URDF file, for messages.
 struct Source {
   std::string file;

@@ -13,9 +13,6 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr double placement_tolerance = 1e-4;  // [m]: a drive that contradicts the joints by more is a mistake
-constexpr double axis_tolerance = 1e-6;       // of a unit vector
-
 std::size_t find_named(const Source& source, const XMLElement& element, const char* attribute, const std::string& name,
                        const Robot& robot) {
   std::vector<std::string> names;

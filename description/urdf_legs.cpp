@@ -10,8 +10,6 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr double placement_tolerance = 1e-4;  // [m]: legs that contradict the joints by more are a mistake
-
 LegDrive::Leg read_leg(const Source& source, const XMLElement& element, const Robot& robot, double radius) {
   const int line = element.GetLineNum();
   if (element.Name() != std::string("leg")) {

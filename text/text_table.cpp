@@ -11,7 +11,7 @@
 namespace muster {
 namespace {
 
-constexpr std::uint64_t most_bytes = std::uint64_t{8} << 30;
+constexpr std::uint64_t most_of_a_table = std::uint64_t{8} << 30;
 constexpr std::size_t most_row_bytes = std::numeric_limits<std::uint16_t>::max();
 
 struct TextHash : std::hash<std::string_view> {
@@ -28,7 +28,7 @@ bool has_outer_space(std::string_view text) {
 
 TextTable TextTable::read(const std::filesystem::path& path) {
   TextTable table;
-  table.file_ = read_text_file(path, most_bytes);
+  table.file_ = read_text_file(path, most_of_a_table);
   if (table.file_.text.empty())
     throw invalid({table.file()}, "is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
   table.split();

@@ -12,7 +12,7 @@
 namespace muster {
 namespace {
 
-constexpr std::uint64_t most_bytes = 16 << 20;
+constexpr std::uint64_t most_of_xml = 16 << 20;
 
 // Joins the parsed tree with the places from the scan; both are in document order.
 class Join {
@@ -53,7 +53,7 @@ const XmlAttribute* XmlElement::attribute(std::string_view wanted) const {
 }
 
 XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root) {
-  const TextFile file = read_text_file(path, most_bytes);
+  const TextFile file = read_text_file(path, most_of_xml);
   if (file.text.empty()) throw invalid({file.file}, "is empty; expected an XML element");
   const std::vector<XmlSpot> spots = scan_xml(file, check_root);
   tinyxml2::XMLDocument document;

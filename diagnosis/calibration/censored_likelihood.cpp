@@ -1,11 +1,12 @@
 #include "diagnosis/calibration/censored_likelihood.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 

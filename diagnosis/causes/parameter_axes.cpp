@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "diagnosis/causes/thresholds.hpp"
@@ -9,7 +10,7 @@
 namespace muster::diagnosis {
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 // Periods of oscillations, evenly spaced in cycles over the data, from two cycles to periods of some rows.
 std::vector<double> periods(double span) {

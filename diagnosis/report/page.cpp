@@ -54,16 +54,16 @@ std::string capital(std::string text) {
 // A title that begins with a name is not capitalised.
 std::string title_of(const CauseEstimate& c) { return c.title.rfind('{', 0) == 0 ? sentence(c) : capital(sentence(c)); }
 
-struct Cell {
+struct TableCell {
   std::string text;
   bool number = false;
 };
-using Row = std::vector<Cell>;
+using Row = std::vector<TableCell>;
 
 std::string table(const Row& head, const std::vector<Row>& rows, const char* kind = "") {
   const auto line = [](const Row& row, const char* tag) {
     std::string out = "<tr>";
-    for (const Cell& cell : row)
+    for (const TableCell& cell : row)
       out += fmt::format("<{0}{1}>{2}</{0}>", tag, cell.number ? " class=\"n\"" : "", escaped(cell.text));
     return out + "</tr>\n";
   };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion.hpp"
+
 namespace muster::simbody {
 
 using Eigen::Matrix3d;
@@ -13,12 +15,6 @@ namespace {
 constexpr double pi = 3.141592653589793;
 constexpr int samples = 12;        // of a leg, between which its distance to a solid has one minimum
 constexpr double resolved = 1e-5;  // [rad] along a leg: gives a gap within 1e-11 m
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Matrix3d turned_about_y(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "motion.hpp"
+
 namespace muster::simbody {
 
 using description::JointKind;
@@ -15,12 +17,6 @@ constexpr int n = unknowns_with_legs;
 constexpr double hold = 1e-6, none = 1e30;  // softness of a held joint [rad/s per N m s], and of a free one
 constexpr double without_end = 1e9;         // [N m s]
 using Columns = ColumnsOfUnknowns;
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Quaterniond turn_of(const Limb& limb) {
   const Quaterniond q(limb.qw, limb.qx, limb.qy, limb.qz);

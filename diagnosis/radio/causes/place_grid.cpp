@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace muster::diagnosis {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s, bool large) {
   const double area = s.east.length() * s.north.length();

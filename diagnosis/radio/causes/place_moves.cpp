@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 using Ways = std::vector<std::array<double, 4>>;
 

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr noise::Conditioning conditioning{12, 0, 1};
 
-std::vector<Index> finite(const VectorXd& residual) {
+std::vector<Index> finite_of(const VectorXd& residual) {
   std::vector<Index> result;
   for (Index i = 0; i < residual.size(); ++i) {
     if (std::isfinite(residual[i])) result.push_back(i);
@@ -81,8 +81,8 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 
 KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual,
                                std::shared_ptr<const noise::StatedCorrelation> stated)
-    : residual_(residual(finite(residual))),
-      field_(sites_of(those(readings, finite(residual)), std::move(stated)), conditioning) {}
+    : residual_(residual(finite_of(residual))),
+      field_(sites_of(those(readings, finite_of(residual)), std::move(stated)), conditioning) {}
 
 KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far_off)
     : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
