@@ -51,8 +51,8 @@ void check_quadrotor(const Source& source, int line, const Quadrotor& drive, con
 
 Quadrotor read_quadrotor(const Source& source, const XMLElement& element, const Robot& robot) {
   only_attributes(source, element,
-                  {"arm", "rotor_angle", "height", "thrust_factor", "torque_factor", "drag_factor", "max_speed", "lag_up", "lag_down",
-                   "attitude_p", "attitude_i", "attitude_d", "yaw_p", "yaw_i"});
+                  {"arm", "rotor_angle", "height", "thrust_factor", "torque_factor", "drag_factor", "max_speed",
+                   "lag_up", "lag_down", "attitude_p", "attitude_i", "attitude_d", "yaw_p", "yaw_i"});
   Quadrotor drive;
   drive.arm = positive(source, element, "arm");
   if (const char* text = element.Attribute("rotor_angle")) {

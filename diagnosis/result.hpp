@@ -85,7 +85,7 @@ struct RowSummary {
   std::vector<inference::Factor> factors;
   std::vector<MappedWall> walls;
   double noise_variance = 0;  // dB2, of a reading from noise alone, in data to which the extended world was fitted
-  bool places_known = true;  // false: the data have distances instead, used in place of places
+  bool places_known = true;   // false: the data have distances instead, used in place of places
 };
 
 // Advice on measurements that separate a cause from an alternative.

@@ -67,10 +67,8 @@ void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& 
   for (const PlannedReadings& p : planned) {
     simulated.push_back(
         std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world, sources.plugins, base));
-    plans.push_back({p.say,
-                     std::make_shared<const LinkLayout>(p.readings, limits),
-                     simulated.back()->slopes(base),
-                     {}});
+    plans.push_back(
+        {p.say, std::make_shared<const LinkLayout>(p.readings, limits), simulated.back()->slopes(base), {}});
     for (const CauseCandidate& c : causes.found) {
       if (ids.count(c.candidate.id)) plans.back().candidates.push_back(simulated.back()->at(c));
     }

@@ -20,7 +20,8 @@ Pose after(const Folder& folder, const std::string& model, const std::string& ph
   return row<Pose>(run, "robot/r/pose");
 }
 
-// Rotors speed up faster than they slow down, so a roll of a plus lifts and turns it a little, and one of an X does not.
+// Rotors speed up faster than they slow down, so a roll of a plus lifts and turns it a little, and one of an X does
+// not.
 TEST_P(XQuadrotors, FlyAsAPlusDoes) {
   const std::string x =
       model_with(folder, "hummingbird", {{"height=\"0.01\"", "height=\"0.01\" rotor_angle=\"0.7853981633974483\""}});
