@@ -74,7 +74,7 @@ fs::path draw(const Simulation& run, const fs::path& log, const std::string& wor
         plotting::Line{.x = one.times,
                        .y = one.values,
                        .label = series.size() > 1 && series.size() <= most_labels ? names_in(one.name, table) : ""});
-  const fs::path file = out / (picture_name(word) + ".svg");
+  fs::path file = out / (picture_name(word) + ".svg");
   try {
     plotting::save({.title = run.world().name, .width = 900, .panels = {panel}}, file);
   } catch (const std::runtime_error& e) {

@@ -84,7 +84,7 @@ std::filesystem::path RunRecord::write_page(std::string& why_not) const {
     why_not = "the tables have " + std::to_string(bytes / 1'000'000) + " MB; `muster report " + folder_.string() +
               "` makes a page of them";
   if (!why_not.empty()) return {};
-  const auto page = folder_ / "run.html";
+  auto page = folder_ / "run.html";
   viewer::write_page(folder_, page, installation().parts);
   return page;
 }

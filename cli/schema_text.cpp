@@ -53,7 +53,7 @@ std::string words(const std::vector<std::string>& words) {
 std::string type_of(const muster_param& param, int count) {
   switch (param.kind) {
     case MUSTER_REAL: {
-      const std::string one = restriction(
+      std::string one = restriction(
           "real", facet("minInclusive", print_real(param.min)) + facet("maxInclusive", print_real(param.max)));
       if (count <= 1) return one;
       const std::string list = "<xs:simpleType><xs:list>" + one + "</xs:list></xs:simpleType>";

@@ -17,7 +17,7 @@ void limit(int resource, rlim_t value) {
 
 // Every other call fails with EPERM. On systems without such filters, the resource limits remain.
 [[maybe_unused]] void allow_memory_and_exit() {
-  const scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
+  scmp_filter_ctx filter = ::seccomp_init(SCMP_ACT_ERRNO(EPERM));
   if (!filter) return;
   for (const int call :
        {SCMP_SYS(brk), SCMP_SYS(mmap), SCMP_SYS(munmap), SCMP_SYS(mremap), SCMP_SYS(mprotect), SCMP_SYS(madvise),

@@ -69,10 +69,17 @@ bool Cause::needs_world() const {
          !those(*plugin, [](const muster_param& p) { return p.kind == MUSTER_TEXT; }).empty();
 }
 
-bool Cause::needs_own_world() const {
-  const bool has_flags = meaning().size >= offsetof(muster_cause, flags) + sizeof meaning().flags;
-  return has_flags && (meaning().flags & MUSTER_OWN_WORLD) != 0;
+namespace {
+
+bool has_flag(const muster_cause& cause, std::uint32_t flag) {
+  const bool has_flags = cause.size >= offsetof(muster_cause, flags) + sizeof cause.flags;
+  return has_flags && (cause.flags & flag) != 0;
 }
+
+}  // namespace
+
+bool Cause::needs_own_world() const { return has_flag(meaning(), MUSTER_OWN_WORLD); }
+bool Cause::needs_both_ends() const { return has_flag(meaning(), MUSTER_BOTH_ENDS); }
 
 std::vector<Cause> causes_on(const Library::SearchPath& plugins) {
   std::vector<Cause> result;

@@ -31,6 +31,8 @@ struct Cause {
   bool needs_world() const;
   // True if it is no term beside others, but judged in a world that has it (MUSTER_OWN_WORLD).
   bool needs_own_world() const;
+  // True if it is about radios that send and receive alone (MUSTER_BOTH_ENDS).
+  bool needs_both_ends() const;
 };
 
 // All causes on the plugin path, sorted by id. Libraries that cannot be loaded are left out.

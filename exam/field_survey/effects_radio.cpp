@@ -1,5 +1,6 @@
 // Radios: powers, receivers, antennas, bodies.
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <set>
 
@@ -41,6 +42,24 @@ std::optional<Planted> weak_sender(const Campaign& campaign, Draws& draws) {
 }
 std::optional<Planted> deaf_receiver(const Campaign& campaign, Draws& draws) {
   return offset("rx_offset", &Row::rx, campaign, draws);
+}
+
+// A bad cable of one radio, of those that send and receive.
+std::optional<Planted> bad_feeder(const Campaign& campaign, Draws& draws) {
+  const std::vector<int> sending = ends(campaign, &Row::tx), receiving = ends(campaign, &Row::rx);
+  std::vector<int> both;
+  std::set_intersection(sending.begin(), sending.end(), receiving.begin(), receiving.end(), std::back_inserter(both));
+  if (both.size() < 3) return {};
+  const int which = draws.one_of(both);
+  const double loss = draws.log_between(1.5, 10);
+  Planted planted{"feeder_loss"};
+  planted.rows = {"radio/" + name(campaign, which)};
+  planted.values = {{"loss", loss, "dB"}};
+  planted.apply = [=](Scene&, Scene& truth) {
+    truth.terms.emplace_back(
+        [=](const Path& path) { return path.row.tx == which || path.row.rx == which ? -loss : 0.0; });
+  };
+  return planted;
 }
 
 // A radio that stands.
@@ -134,8 +153,9 @@ std::optional<Planted> wrong_powers(const Campaign& campaign, Draws& draws) {
 }  // namespace
 
 std::vector<Kind> radio_kinds() {
-  return {{"tx_offset", weak_sender},        {"rx_offset", deaf_receiver}, {"antenna_tx", one_lobe},
-          {"sector_antenna", sector, false}, {"body_shadow", body},        {"power_steps", wrong_powers}};
+  return {{"tx_offset", weak_sender},   {"rx_offset", deaf_receiver},      {"feeder_loss", bad_feeder},
+          {"antenna_tx", one_lobe},     {"sector_antenna", sector, false}, {"body_shadow", body},
+          {"power_steps", wrong_powers}};
 }
 
 }  // namespace muster::exam::survey

@@ -73,8 +73,9 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
 // wall has no loss, like one of another material. For a radio that sends and receives, offsets of transmitter and
 // receiver and an asymmetry differ only in the mean level of its pairs. Shadowing absorbs that.
 bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
-  static const std::vector<std::set<std::string>> classes{
-      {"unmapped_wall", "obstacle"}, {"wall_material", "wall_absent"}, {"asymmetry", "rx_offset", "tx_offset"}};
+  static const std::vector<std::set<std::string>> classes{{"unmapped_wall", "obstacle"},
+                                                          {"wall_material", "wall_absent"},
+                                                          {"asymmetry", "feeder_loss", "rx_offset", "tx_offset"}};
   const bool right_place = effect.rows.empty() || at_right_row(effect, cause);
   const auto lists = [&](const std::vector<std::string>& ids) {
     return std::find(ids.begin(), ids.end(), cause.id) != ids.end();

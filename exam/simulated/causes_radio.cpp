@@ -64,6 +64,16 @@ std::optional<PlantedCause> asymmetry(const Setting& s, Random& random) {
   return cause;
 }
 
+std::optional<PlantedCause> feeder_loss(const Setting& s, Random& random) {
+  if (!s.both_ways) return {};
+  PlantedCause cause = of_radio("feeder_loss", any_station(s, random).name);
+  cause.numbers = {{"loss", random.uniform(1.5, 8), "dB"}};
+  cause.size = "loss";
+  cause.least = 0.3;
+  cause.most = 20;
+  return cause;
+}
+
 PlantedCause antenna(const char* id, const std::string& radio, Random& random) {
   PlantedCause cause = of_radio(id, radio);
   cause.numbers = {{"amplitude", random.uniform(2, 6), "dB"}, {"direction", random.uniform(-pi, pi), "rad"}};
@@ -164,12 +174,12 @@ std::vector<CauseKind> radio_causes() {
   SiteNeeds two_way, power;
   two_way.two_way = true;
   power.power = true;
-  return {{"tx_offset", {}, tx_offset},        {"rx_offset", {}, rx_offset},
-          {"asymmetry", two_way, asymmetry},   {"antenna_tx", {}, antenna_tx},
-          {"antenna_rx", {}, antenna_rx},      {"body_shadow", {}, body_shadow},
-          {"label_swap", {}, label_swap},      {"tx_misplaced", {}, tx_misplaced},
-          {"power_steps", power, power_steps}, {"labels_shifted", {}, labels_shifted},
-          {"plan_turned", {}, plan_turned},    {"column_shifted", {}, column_shifted}};
+  return {
+      {"tx_offset", {}, tx_offset},          {"rx_offset", {}, rx_offset},           {"asymmetry", two_way, asymmetry},
+      {"feeder_loss", two_way, feeder_loss}, {"antenna_tx", {}, antenna_tx},         {"antenna_rx", {}, antenna_rx},
+      {"body_shadow", {}, body_shadow},      {"label_swap", {}, label_swap},         {"tx_misplaced", {}, tx_misplaced},
+      {"power_steps", power, power_steps},   {"labels_shifted", {}, labels_shifted}, {"plan_turned", {}, plan_turned},
+      {"column_shifted", {}, column_shifted}};
 }
 
 }  // namespace muster::exam::simulated

@@ -29,7 +29,7 @@ struct Asymmetry {
       "effect.tx_offset effect.rx_offset",
       "let both radios send and receive at the same places, then exchange the device",
       nullptr,
-      0,
+      MUSTER_BOTH_ENDS,
   };
 
   explicit Asymmetry(Setup& s)

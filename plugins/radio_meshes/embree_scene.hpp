@@ -11,10 +11,10 @@ namespace muster {
 // would meet some twice.
 inline RTCScene scene_of_triangles(RTCDevice device, std::size_t count, void* owner, RTCBoundsFunction bounds,
                                    RTCOccludedFunctionN crossed) {
-  const RTCScene scene = rtcNewScene(device);
+  RTCScene scene = rtcNewScene(device);
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
   rtcSetGeometryUserData(geometry, owner);
   rtcSetGeometryBoundsFunction(geometry, bounds, nullptr);

@@ -43,9 +43,11 @@ std::string why_not(const Cause& cause, const MeasurementGeometry& survey, const
 
 namespace {
 
-// True if a cause may concern a radio: a turning one if it needs a heading, a stationary one if it needs only places.
+// True if a cause may concern a radio: one that sends and receives if it tells these apart, a turning one if it needs a
+// heading, a stationary one if it needs only places.
 bool may_be_about(const Cause& cause, const MeasurementGeometry& survey, std::size_t radio) {
   if (radio >= survey.turns.size()) return false;  // it took part in no reading
+  if (cause.needs_both_ends() && !survey.both_ends[radio]) return false;
   return needs(cause, "rx_yaw") ? survey.turns[radio] : !(needs(cause, "tx_x") && survey.moves[radio]);
 }
 
@@ -80,9 +82,10 @@ std::string why_no_rows(const Cause& cause) {
   std::string none = "not testable: the world has no row that it could be about";
   if (std::string_view(references[0]->text) != "radio") return none;
   none += references.size() == 2 ? " (two are needed" : " (one is needed";
-  none += needs(cause, "rx_yaw") ? ", of the radios that turn)"
-          : needs(cause, "tx_x") ? ", of the radios that stand)"
-                                 : ", of the radios with readings)";
+  none += cause.needs_both_ends()  ? ", of the radios that send and receive)"
+          : needs(cause, "rx_yaw") ? ", of the radios that turn)"
+          : needs(cause, "tx_x")   ? ", of the radios that stand)"
+                                   : ", of the radios with readings)";
   return none;
 }
 

@@ -124,12 +124,16 @@ double height_above_moving(const LinkModel& model, const MeasurementGeometry& su
 
 struct Trail {
   Span east, north, yaw;
+  std::array<double, 2> readings = {};        // that it sends, that it receives
   std::vector<std::array<double, 2>> places;  // at least 0.2 m from one to the next
   std::vector<double> headings;               // at least 0.2 rad
 
   // A radio set up at a few places counts as stationary.
   bool moves() const {
     return east.length() + north.length() > thresholds::moving_extent && places.size() > thresholds::most_set_ups;
+  }
+  bool does_both() const {
+    return std::min(readings[0], readings[1]) > thresholds::both_ends_share * (readings[0] + readings[1]);
   }
   bool turns() const {
     return yaw.length() > thresholds::turning_range && (moves() || headings.size() > thresholds::most_set_ups);
@@ -214,8 +218,10 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   bool first = true;
   for (const std::size_t row : by_time(data)) {
     const auto& ends = model.ends()[row];
-    for (const End& end : ends) {
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const End& end = ends[k];
       follow(trails[end.radio], end, survey);
+      ++trails[end.radio].readings[k];
       widen(survey.east, end.x, first);
       widen(survey.north, end.y, first);
       widen(survey.height, end.z, first);
@@ -235,6 +241,8 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   for (const auto& [radio, trail] : trails) {
     survey.turns.resize(static_cast<std::size_t>(radio) + 1, false);
     survey.moves.resize(static_cast<std::size_t>(radio) + 1, false);
+    survey.both_ends.resize(static_cast<std::size_t>(radio) + 1, false);
+    survey.both_ends[static_cast<std::size_t>(radio)] = trail.does_both();
     survey.turns[static_cast<std::size_t>(radio)] = trail.turns();
     survey.moves[static_cast<std::size_t>(radio)] = trail.moves();
     if (!trail.moves()) survey.standing.insert(survey.standing.end(), trail.places.begin(), trail.places.end());

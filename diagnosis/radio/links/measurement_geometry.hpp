@@ -26,6 +26,7 @@ struct MeasurementGeometry {
   double above_moving = 0;                      // m: midway between the highest moving radio and the next radio above
   double plan_angle = 0;                        // rad, in [0, pi/2): mean direction of walls, modulo quarter turns
   std::vector<bool> turns, moves;               // one a radio
+  std::vector<bool> both_ends;                  // one a radio: it sends in some readings and receives in others
   std::vector<std::array<double, 2>> standing;  // m, places of radios that do not move
   // Driven paths, x0 y0 x1 y1 of each piece, m; sorted by x0.
   std::vector<std::array<double, 4>> ways;

@@ -119,6 +119,34 @@ TEST(CauseRows, ARadioThatOnlyTheDataNameIsOne) {
   EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
 }
 
+// A cause that tells sending from receiving is about radios that do both; a reading in a hundred is not enough.
+TEST(CauseRows, SendingIsToldFromReceivingWhereARadioDoesBoth) {
+  const auto asymmetric = [](int sent_by_b) {
+    const Scratch scratch;
+    std::string rows = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+    for (int k = 0; k < 100; ++k) {
+      const bool turned = k < sent_by_b;
+      rows += fmt::format("{},{},{},0,0,{},1,{}\n", k, turned ? "b" : "a", turned ? "a" : "b", 1 + k % 7, -50 - k % 3);
+    }
+    const auto world = scratch.write("world.xml",
+                                     "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
+                                     "<station name=\"b\" at=\"1 0 1\"/><radio.multiwall/></world>");
+    const auto file = scratch.write("d.csv", rows);
+    const LinkModel model(world, file, plugins);
+    for (const Cause& cause : causes_on(plugins)) {
+      if (cause.id != "effect.asymmetry") continue;
+      const auto found = rows_for(cause, model, measurement_geometry(model, read_dataset(file)));
+      return found.empty() ? why_no_rows(cause) : fmt::format("{} radios", found.size());
+    }
+    return std::string("no such cause");
+  };
+  const std::string none =
+      "not testable: the world has no row that it could be about (one is needed, of the radios that send and receive)";
+  EXPECT_EQ(asymmetric(0), none);
+  EXPECT_EQ(asymmetric(1), none);
+  EXPECT_EQ(asymmetric(40), "2 radios");
+}
+
 // Measurement geometry of a radio with these poses that receives from one station.
 MeasurementGeometry heard_at(const std::vector<std::array<double, 3>>& places_and_headings) {
   const Scratch scratch;

@@ -38,6 +38,7 @@ class Declarations : public testing::Test {
 TEST_F(Declarations, AllCausesThatTheProjectPromisesAreThere) {
   for (const char* name : {"tx_offset",
                            "rx_offset",
+                           "feeder_loss",
                            "antenna_tx",
                            "antenna_rx",
                            "body_shadow",

@@ -24,6 +24,7 @@ const std::vector<Example>& examples() {
       {"tx_offset", "radio=\"a\" offset=\"3\"", "", false},
       {"rx_offset", "radio=\"a\" offset=\"3\"", "", false},
       {"asymmetry", "radio=\"a\" loss=\"3\"", "", false},
+      {"feeder_loss", "radio=\"a\" loss=\"3\"", ""},
       {"antenna_tx", "radio=\"a\" amplitude=\"3\"", ""},
       {"antenna_rx", "radio=\"r\" amplitude=\"3\" direction=\"1\"", ""},
       {"body_shadow", "radio=\"r\" loss=\"3\" width=\"1.2\"", ""},

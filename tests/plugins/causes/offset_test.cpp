@@ -22,6 +22,11 @@ TEST(Offset, OfAnAsymmetricRadioIsItsDifferenceBetweenBothWays) {
   });
 }
 
+TEST(Offset, OfAFeederIsOnBothWays) {
+  expect_term("feeder_loss", "radio=\"b\" loss=\"6\"",
+              [](const Reading& r) { return r.tx == "b" || r.rx == "b" ? -6 : 0; });
+}
+
 TEST(Antenna, OfAStandingRadioIsTheSameBothWays) {
   expect_term("antenna_tx", "radio=\"b\" amplitude=\"4\" direction=\"1\"", [](const Reading& r) {
     if (r.tx == "b") return 4 * std::cos(seen(r.from, r.to) - 1);
