@@ -124,7 +124,7 @@ class GeomReader {
   }
 
   // `of_one`: at a density of 1, in the geom's frame.
-  void weigh(Mass of_one) {
+  void weigh(const Mass& of_one) {
     if (of_one.mass == 0) return;
     const double mass = values_.text(element_, "mass") ? values_.number(element_, "mass", 0)
                                                        : of_one.mass * values_.number(element_, "density", water);

@@ -65,7 +65,7 @@ std::optional<std::vector<double>> Values::numbers(const Element& element, const
                                                    std::size_t least) const {
   const auto given = text(element, attribute);
   if (!given) return std::nullopt;
-  const auto values = parse_numbers(*given);
+  auto values = parse_numbers(*given);
   if (!values || values->size() > count || values->size() < (least > 0 ? least : count)) {
     const std::string numbers =
         least > 0 && least < count ? std::to_string(least) + " to " + std::to_string(count) : std::to_string(count);

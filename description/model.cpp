@@ -27,7 +27,7 @@ std::vector<std::string> models_in(const std::vector<std::string>& directories) 
 
 // The nearest name; all, where none is near.
 std::string suggestion(const std::string& model, const std::vector<std::string>& names) {
-  const std::string near = nearest(model, names);
+  std::string near = nearest(model, names);
   if (!near.empty() || names.empty()) return near;
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "; expected one of " : ", ") + name;

@@ -110,7 +110,7 @@ void check_inertia(Mass& mass, const Eigen::Isometry3d& frame, const std::vector
     even->mass = mass.mass;
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solved(mass.inertia);
-  const Vector3d principal = solved.eigenvalues();
+  const Vector3d& principal = solved.eigenvalues();
   if (!(principal[0] > 0)) {
     throw std::runtime_error("inertia is not positive definite: its principal moments are " + moments(principal) +
                              ", each of which is above 0 in a body" + remedy(even));

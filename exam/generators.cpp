@@ -77,7 +77,7 @@ std::vector<std::string> listed_in(const Arguments& arguments, const std::string
                                    const std::vector<std::string>& known) {
   const auto at = arguments.find(option);
   if (at == arguments.end()) return {};
-  const std::vector<std::string> result = listed(at->second[0]);
+  std::vector<std::string> result = listed(at->second[0]);
   for (const std::string& word : result) one_of(what, word, known);
   return result;
 }

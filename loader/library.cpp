@@ -186,7 +186,7 @@ std::filesystem::path find(const std::string& id, const Library::SearchPath& sea
   if (parse_plugin_id(id + "/1").revision == 0)
     throw Refusal("is no plugin id; expected words of a-z, 0-9 and _ with dots between them");
   for (const std::filesystem::path& folder : search_path) {
-    const std::filesystem::path file = folder / file_name(id);
+    std::filesystem::path file = folder / file_name(id);
     std::error_code unknown;  // a broken link is listed, so that open() can report it
     if (std::filesystem::exists(std::filesystem::symlink_status(file, unknown))) return file;
   }

@@ -22,7 +22,10 @@ class Lattice {
         if (away_from(panel, centre(static_cast<int>(i))) < clearance) free_[i] = 0;
   }
 
-  Point centre(int place) const { return {(place % columns_ + 0.5) * pitch_, (place / columns_ + 0.5) * pitch_}; }
+  Point centre(int place) const {
+    const int column = place % columns_, row = place / columns_;
+    return {(column + 0.5) * pitch_, (row + 0.5) * pitch_};
+  }
 
   int nearest(Point p) const {
     int best = -1;

@@ -127,7 +127,8 @@ std::optional<PlantedCause> label_swap(const Setting& s, Random& random) {
 std::optional<PlantedCause> labels_shifted(const Setting& s, Random& random) {
   const int stations = static_cast<int>(s.site.plan.stations.size());
   if (stations < 3) return {};
-  const std::string first = s.site.plan.stations[static_cast<std::size_t>(1 + random.below(stations - 1))].name;
+  const int which = 1 + random.below(stations - 1);
+  const std::string first = s.site.plan.stations[static_cast<std::size_t>(which)].name;
   PlantedCause cause{"labels_shifted"};
   cause.texts = {{"first", first}};
   cause.rows = {"radio/" + first};

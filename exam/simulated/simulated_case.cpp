@@ -92,7 +92,7 @@ Eigen::VectorXd receiver_shift(const Simulator& simulator, const std::string& wi
   constexpr int draws = 16;
   Eigen::VectorXd sum, count;
   for (int i = 0; i < draws; ++i) {
-    const auto seed = static_cast<std::uint64_t>(1000 + i);
+    const auto seed = std::uint64_t{1000} + static_cast<std::uint64_t>(i);
     const Eigen::VectorXd difference = simulator.drawn(with, seed) - simulator.drawn(without, seed);
     if (i == 0) sum = count = Eigen::VectorXd::Zero(difference.size());
     for (Eigen::Index k = 0; k < difference.size(); ++k)

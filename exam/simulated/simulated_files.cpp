@@ -64,7 +64,7 @@ std::string world_xml(const Made& made) {
 }
 
 std::string table(const Made& made, const Data& data) {
-  const std::string csv = readings_csv(made.site, data, made.channel.decimals);
+  std::string csv = readings_csv(made.site, data, made.channel.decimals);
   if (!made.counts_walls) return csv;
   std::istringstream lines(csv);
   std::string out, line;

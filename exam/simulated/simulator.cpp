@@ -42,7 +42,8 @@ Eigen::VectorXd last_column(const std::string& csv) {
 }  // namespace
 
 fs::path simulator_program() {
-  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path(), beside = folder / "muster";
+  const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+  fs::path beside = folder / "muster";
   if (fs::is_regular_file(beside)) return beside;
   return folder.parent_path().parent_path() / "bin" / "muster";
 }

@@ -95,16 +95,20 @@ InstanceDeclaration measured_links(const std::filesystem::path& file, const Plac
   return {"data.links", stand_in, 1, {}, {}, {{"file", std::filesystem::absolute(file).string(), place, place}}, place};
 }
 
-static Observable links_of(const std::filesystem::path& data, const Place& place) {
+namespace {
+
+Observable links_of(const std::filesystem::path& data, const Place& place) {
   return {MUSTER_RADIO, "link/*/level", "link/*/rssi", measured_links(data, place)};
 }
+
+}  // namespace
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
                      const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
                      std::optional<uint64_t> seed)
     : LinkModel(world_for(world, data, *tables, seed), data, plugins, tables) {}
 
-LinkModel::LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
+LinkModel::LinkModel(const World& declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
                      const std::shared_ptr<TableCache>& tables) try
     : MeasuredWorld(declared, options_for(declared, plugins, tables), links_of(data, {declared.file.string()})) {
   ends_ = ends_now();

@@ -44,7 +44,7 @@ class LinkModel : public MeasuredWorld {
   Eigen::VectorXd changes_nearby(double metres);
 
  private:
-  LinkModel(World declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
+  LinkModel(const World& declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
             const std::shared_ptr<TableCache>& tables);
   std::vector<std::array<End, 2>> ends_;
 };
