@@ -156,6 +156,12 @@ inline constexpr Eigen::Index worth_localising = 4000;
 inline constexpr double beyond_map = 10;
 // m; standard deviation of a radio's place about the map's; chosen; none
 inline constexpr double misplaced_spread = 3;
+// share; of misplaced radios, of those that stand anywhere in the area and not near the map's place; chosen;
+// Candidates.ARadioMayStandFarFromItsMappedPlace
+inline constexpr double blunder_share = 0.1;
+// places; far from the map's, of all radios together, from which a search begins; chosen;
+// Candidates.ARadioMayStandFarFromItsMappedPlace
+inline constexpr double far_places = 400;
 // m; within which a radio stands where the map has it; chosen;
 // Candidates.MisplacementsBelowATenthOfAMetreAreExcluded
 inline constexpr double same_place = 0.1;

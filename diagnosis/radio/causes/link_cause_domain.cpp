@@ -132,8 +132,9 @@ bool LinkCauseDomain::admits(const CauseShape& shape, const inference::Candidate
   return !stands(c) || clear_of_ways(shape, geometry_, theta);
 }
 
-// Prior: a radio lies within a few metres of its mapped place. Displacements within the accuracy of map and mount are
-// excluded. In a smooth field, millimetres that move links past the end of a wall would be significant.
+// Prior: a radio lies within a few metres of its mapped place, or, by a blunder, anywhere in the area. Displacements
+// within the accuracy of map and mount are excluded. In a smooth field, millimetres that move links past the end of a
+// wall would be significant.
 void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candidate& c) const {
   std::vector<Eigen::Vector2d> mapped;
   for (const CauseRow& row : shape.rows)
@@ -141,8 +142,12 @@ void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candida
   const auto moved = [mapped = std::move(mapped)](const VectorXd& t) {
     return (t.segment<2>(1) - mapped[static_cast<std::size_t>(t[0])]).norm();
   };
-  c.refinement.belief = [moved](const VectorXd& t) {
-    return -std::pow(moved(t) / thresholds::misplaced_spread, 2) / 2;
+  const double area = std::max(geometry_.east.length() * geometry_.north.length(), 1.0),
+               share = thresholds::blunder_share;
+  const double anywhere = share / (1 - share) * 2 * M_PI * std::pow(thresholds::misplaced_spread, 2) / area;
+  c.refinement.belief = [moved, anywhere](const VectorXd& t) {
+    const double near = std::exp(-std::pow(moved(t) / thresholds::misplaced_spread, 2) / 2);
+    return std::log((near + anywhere) / (1 + anywhere));
   };
   c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < thresholds::same_place ? 0.0 : 1.0; };
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -32,17 +34,28 @@ std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s
   return result;
 }
 
-// Places around each radio's mapped place.
-std::vector<VectorXd> around_radios(const CauseShape& shape, const LinkModel& model) {
+// Places around each radio's mapped place, and far ones over the whole area.
+std::vector<VectorXd> around_radios(const CauseShape& shape, const MeasurementGeometry& survey,
+                                    const LinkModel& model) {
+  constexpr double around = 5;
+  const double area = survey.east.length() * survey.north.length();
+  const double spacing =
+      std::max(2.0, std::sqrt(area * static_cast<double>(shape.rows.size()) / thresholds::far_places));
   std::vector<VectorXd> result;
   for (std::size_t row = 0; row < shape.rows.size(); ++row) {
     const auto at = place_of_radio(model, shape.rows[row].at(0));
     if (!at) continue;
-    for (const double r : {0.25, 0.6, 1.5, 3.0, 5.0}) {
+    for (const double r : {0.25, 0.6, 1.5, 3.0, around}) {
       for (int k = 0; k < 8; ++k) {
         const double angle = (k + (r == 1.5 || r == 5.0 ? 0.5 : 0)) * pi / 4;
         result.push_back(
             theta_of(row, Eigen::Vector2d(at->x() + r * std::cos(angle), at->y() + r * std::sin(angle)), {}));
+      }
+    }
+    for (double x = survey.east.low + spacing / 2; x < survey.east.high; x += spacing) {
+      for (double y = survey.north.low + spacing / 2; y < survey.north.high; y += spacing) {
+        const Eigen::Vector2d place(x, y);
+        if ((place - *at).norm() > around + spacing / 2) result.push_back(theta_of(row, place, {}));
       }
     }
   }
@@ -82,7 +95,7 @@ std::optional<Eigen::Vector2d> place_of_radio(const LinkModel& model, const std:
 std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeometry& survey, const LinkModel& model,
                                 bool stands) {
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point)
-    return around_radios(shape, model);
+    return around_radios(shape, survey, model);
   if (shape.is_room() && !survey.rooms.empty()) return rooms_of_plan(shape, survey);
   if (shape.is_strip() && !survey.strips.empty()) return between_walls(shape, survey);
   if (shape.place == PlaceShape::none) return start_grid(shape, {VectorXd()});

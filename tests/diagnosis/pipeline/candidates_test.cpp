@@ -160,6 +160,37 @@ TEST(Candidates, MisplacementsBelowATenthOfAMetreAreExcluded) {
   EXPECT_EQ(c.refinement.admitted(mapped + 0.3 * (start - mapped)), 0);
 }
 
+// A blunder of the map puts a radio anywhere: the search begins everywhere, at a price that does not grow without end.
+TEST(Candidates, ARadioMayStandFarFromItsMappedPlace) {
+  const Scratch scratch;
+  const auto world = sealed_case(scratch, "--mix clean", 1);
+  const DiagnosisSetup at(world, world / "measured.csv", plugins);
+  const inference::ModelState state(at.problem, at.options);
+  const inference::Candidate& c = *sought(state, "effect.tx_misplaced").candidate;
+  const Eigen::VectorXd mapped = (c.design.grid[0] + c.design.grid[4]) / 2;
+  std::size_t of_this_radio = 0, far = 0;
+  double farthest = 0;
+  for (const Eigen::VectorXd& theta : c.design.grid) {
+    if (theta[0] != mapped[0]) continue;
+    const double moved = (theta - mapped).norm();
+    ++of_this_radio;
+    far += moved > 5.01;
+    farthest = std::max(farthest, moved);
+  }
+  EXPECT_GE(far, 8u);
+  EXPECT_EQ(of_this_radio - far, 40u);
+  EXPECT_GT(farthest, 8);
+  const auto belief = [&](double m) {
+    Eigen::VectorXd theta = mapped;
+    theta[1] += m;
+    return c.refinement.belief(theta);
+  };
+  EXPECT_EQ(belief(0), 0);
+  EXPECT_NEAR(belief(3), -0.5, 0.02);
+  EXPECT_GT(belief(30), -9);
+  EXPECT_EQ(belief(30), belief(40));
+}
+
 // Without a better place the map's own fits best, and a millimetre aside a link may pass a wall. One case was wrongly
 // named so, with a gain of 37 and a held-out error of 37 dB.
 TEST(Candidates, ARefinedMisplacementExcludesTheMappedPlace) {

@@ -57,6 +57,19 @@ TEST(FieldLog, AnOffsetOfARadioThatTheWorldDoesNotList) {
   EXPECT_EQ(LinkModel(extended, data, plugins).added_radios(), (std::vector<std::string>{"phone1", "phone3"}));
 }
 
+// A station eleven metres from where the map has it, at the other end of the flat.
+TEST(FieldLog, AStationFarFromItsPlaceOnTheMap) {
+  const Scratch scratch;
+  const auto truth = world_of(scratch, "truth.xml",
+                              stations + phones + fading + "<effect.tx_misplaced radio=\"s2\" x=\"2.2\" y=\"7.5\"/>");
+  const auto given = world_of(scratch, "given.xml", stations + phones + fading);
+  const Diagnosis found = diagnose(given, drawn_by(scratch, truth, plugins, by_phones()), plugins);
+  EXPECT_EQ(names_in_words(named_causes(found)), "effect.tx_misplaced radio/s2");
+  ASSERT_EQ(found.causes.size(), 1u);
+  EXPECT_NEAR(found.causes[0].values.at(0).value, 2.2, 0.7);
+  EXPECT_NEAR(found.causes[0].values.at(1).value, 7.5, 0.7);
+}
+
 // Nine radios that stand and hear each other every hour. Each link has a shadowing of its own, the same both ways, and
 // one radio sends 1.5 dB too little. A share of the noise that is fixed to each direction would take that up.
 TEST(FieldLog, ARadioOfAMeshThatSendsTooLittleIsNoNoiseOfItsLinks) {
