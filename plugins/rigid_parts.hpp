@@ -135,7 +135,8 @@ inline std::vector<std::string> lacks(const description::Robot& robot,
 }
 
 // Throws std::runtime_error with all reasons, if there are any.
-inline void refuse(const description::Robot& robot, const std::string& engine, const std::vector<std::string>& reasons) {
+inline void refuse(const description::Robot& robot, const std::string& engine,
+                   const std::vector<std::string>& reasons) {
   if (reasons.empty()) return;
   std::string list;
   for (const std::string& one : reasons) list += (list.empty() ? "" : "; ") + one;
