@@ -41,9 +41,9 @@ std::string place(const Isometry3d& pose) {
   return " pos='" + vector(pose.translation()) + "' quat='" + numbers({q.w(), q.x(), q.y(), q.z()}) + "'";
 }
 
-std::string inertial(const description::Mass& m) {
+std::string inertial(const description::Mass& m, const Vector3d& centre) {
   const auto& i = m.inertia;
-  return "<inertial pos='" + vector(m.centre) + "' mass='" + number(m.mass) + "' fullinertia='" +
+  return "<inertial pos='" + vector(centre) + "' mass='" + number(m.mass) + "' fullinertia='" +
          numbers({i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)}) + "'/>";
 }
 
@@ -97,17 +97,28 @@ class Writer {
 
   std::string robot(std::size_t i) {
     const RobotModel& model = robots_[i];
-    std::string text = "<body name='" + body_name(i) + "'><freejoint/>" + inertial(model.body) + parts(i, -1);
+    std::string text =
+        "<body name='" + body_name(i) + "'><freejoint/>" + inertial(model.body, Vector3d::Zero()) + parts(i, -1);
     for (std::size_t w = 0; w < model.wheels.size(); ++w) text += wheel(i, w);
     if (model.has_wheels && model.drive.steering) {
       const description::Steering& car = *model.drive.steering;
       for (int side = 0; side < 2; ++side) {
         Surface surface = own(i, model.drive.friction);
         surface.holds_along = true, surface.steered = side;
-        text += tyre(car.radius, car.middle(side, 0), surface);
+        text += tyre(car.radius, moved(i, -1, car.middle(side, 0)), surface);
       }
     }
     return text + limbs(i, -1) + "</body>";
+  }
+
+  // Places of what a carrier bears (-1: the body). The body's frame is in its centre of mass, whose velocity is then
+  // one of MuJoCo's coordinates: in the air it keeps the momentum.
+  Vector3d moved(std::size_t i, int carrier, const Vector3d& place) const {
+    return carrier < 0 ? Vector3d(place - robots_[i].body.centre) : place;
+  }
+  Isometry3d moved(std::size_t i, int carrier, Isometry3d frame) const {
+    frame.translation() = moved(i, carrier, Vector3d(frame.translation()));
+    return frame;
   }
 
   Surface own(std::size_t i, double friction) const { return {static_cast<int>(i), friction, robots_[i].restitution}; }
@@ -117,8 +128,8 @@ class Writer {
     const Wheel& one = model.wheels[w];
     Surface surface = own(i, model.drive.friction);
     if (model.drive.mecanum) surface.holds_along = true, surface.along = description::Mecanum::hold(w);
-    return "<body name='" + wheel_name(i, w) + "'" + place(one.frame) + "><joint type='hinge' name='" +
-           wheel_name(i, w) + "' axis='" + vector(one.axis) + "'/>" + inertial(one.mass) +
+    return "<body name='" + wheel_name(i, w) + "'" + place(moved(i, -1, one.frame)) + "><joint type='hinge' name='" +
+           wheel_name(i, w) + "' axis='" + vector(one.axis) + "'/>" + inertial(one.mass, one.mass.centre) +
            tyre(model.drive.wheel_radius, Vector3d::Zero(), surface) + "</body>";
   }
 
@@ -129,8 +140,9 @@ class Writer {
     for (std::size_t k = 0; k < model.limbs.size(); ++k) {
       const LimbModel& limb = model.limbs[k];
       if (limb.carrier != carrier) continue;
-      text += "<body name='" + limb_name(i, k) + "'" + place(limb.frame) + ">" + joint(limb, limb_name(i, k)) +
-              inertial(limb.mass) + parts(i, static_cast<int>(k)) + limbs(i, static_cast<int>(k)) + "</body>";
+      text += "<body name='" + limb_name(i, k) + "'" + place(moved(i, carrier, limb.frame)) + ">" +
+              joint(limb, limb_name(i, k)) + inertial(limb.mass, limb.mass.centre) + parts(i, static_cast<int>(k)) +
+              limbs(i, static_cast<int>(k)) + "</body>";
     }
     return text;
   }
@@ -155,12 +167,12 @@ class Writer {
     for (const rigid::Ball& ball : model.balls) {
       if (ball.limb != limb) continue;
       const double friction = model.is_driven && limb < 0 ? smooth : around_.friction;
-      text += shape("sphere", "size='" + number(ball.radius) + "' pos='" + vector(ball.centre) + "'", kind,
-                    ground | others, own(i, friction));
+      text += shape("sphere", "size='" + number(ball.radius) + "' pos='" + vector(moved(i, limb, ball.centre)) + "'",
+                    kind, ground | others, own(i, friction));
     }
     for (const rigid::Block& block : model.blocks) {
       if (block.limb != limb) continue;
-      text += shape("box", "size='" + vector(block.size / 2) + "'" + place(block.pose), kind,
+      text += shape("box", "size='" + vector(block.size / 2) + "'" + place(moved(i, limb, block.pose)), kind,
                     block.is_wheel ? others : ground | others, own(i, around_.friction));
     }
     return text;

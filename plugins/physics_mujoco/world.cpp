@@ -120,10 +120,12 @@ std::string World::step_in_room(double dt, const std::vector<Command>& commands,
 void World::place(const Robot& robot, const RobotState& s) {
   double *q = data_->qpos, *v = data_->qvel;
   const Quaterniond turned = Quaterniond(s.pose[3], s.pose[4], s.pose[5], s.pose[6]).normalized();
-  const double pose[] = {s.pose[0], s.pose[1], s.pose[2], turned.w(), turned.x(), turned.y(), turned.z()};
-  std::copy(std::begin(pose), std::end(pose), q + robot.free.position);
-  put(vector(s.twist.data()), v + robot.free.rate);
-  put(turned.conjugate() * vector(s.twist.data() + 3), v + robot.free.rate + 3);  // MuJoCo's is in the body's frame
+  const Vector3d arm = turned * robot.model.body.centre, spin = vector(s.twist.data() + 3);
+  const double quaternion[] = {turned.w(), turned.x(), turned.y(), turned.z()};
+  put(vector(s.pose.data()) + arm, q + robot.free.position);
+  std::copy(std::begin(quaternion), std::end(quaternion), q + robot.free.position + 3);
+  put(vector(s.twist.data()) + spin.cross(arm), v + robot.free.rate);
+  put(turned.conjugate() * spin, v + robot.free.rate + 3);  // MuJoCo's is in the body's frame
   for (std::size_t w = 0; w < robot.wheel.size(); ++w) {
     const auto side = static_cast<std::size_t>(robot.model.wheels[w].side);
     const bool is_rear = w >= 2 && robot.model.drive.mecanum;
@@ -161,7 +163,7 @@ void World::steer(const Robot& robot, double angle) {
   const description::Steering& car = *robot.model.drive.steering;
   for (int side = 0; side < 2; ++side) {
     const int geom = robot.steered[static_cast<std::size_t>(side)];
-    put(car.middle(side, angle), model_->geom_pos + 3 * geom);
+    put(car.middle(side, angle) - robot.model.body.centre, model_->geom_pos + 3 * geom);
     text_.surfaces[shape_of_[static_cast<std::size_t>(geom)]].along = car.axle(side, angle);
   }
 }
@@ -172,9 +174,10 @@ void World::lift(const Robot& robot, const Command& command, double h, RobotStat
   const auto middle = rotors.later(state.rotors, command.rotors, rotors.decay(h / 2));
   const double *q = data_->qpos + robot.free.position, *rates = data_->qvel + robot.free.rate;
   const Quaterniond turned(q[3], q[4], q[5], q[6]);
-  const Vector3d v = turned.conjugate() * vector(rates), w = vector(rates + 3);
+  const Vector3d centre = robot.model.body.centre, w = vector(rates + 3);
+  const Vector3d v = turned.conjugate() * vector(rates) - w.cross(centre);
   const auto [force, torque] = rotors.wrench(middle, v, w);
-  const Vector3d about_centre = torque - robot.model.body.centre.cross(force);
+  const Vector3d about_centre = torque - centre.cross(force);
   put(turned * force, data_->xfrc_applied + 6 * robot.body);
   put(turned * about_centre, data_->xfrc_applied + 6 * robot.body + 3);
   state.rotors = rotors.later(state.rotors, command.rotors, rotors.decay(h));
@@ -203,13 +206,14 @@ void World::read(const Robot& robot, RobotState& s) const {
   const double *q = data_->qpos, *v = data_->qvel;
   const double *pose = q + robot.free.position, *rates = v + robot.free.rate;
   const Quaterniond turned = Quaterniond(pose[3], pose[4], pose[5], pose[6]).normalized();
-  const Vector3d speed = vector(rates), spin = turned * vector(rates + 3);
+  const Vector3d arm = turned * robot.model.body.centre, spin = turned * vector(rates + 3);
+  const Vector3d origin = vector(pose) - arm, speed = vector(rates) - spin.cross(arm);
   const auto check = [&](const Vector3d& motion) {
     if (!(motion.cwiseAbs().maxCoeff() < fastest))
       throw std::runtime_error("robot '" + robot.name + "': its motion blew up");
   };
   check(speed), check(spin);
-  s.pose = {pose[0], pose[1], pose[2], turned.w(), turned.x(), turned.y(), turned.z()};
+  s.pose = {origin.x(), origin.y(), origin.z(), turned.w(), turned.x(), turned.y(), turned.z()};
   s.twist = {speed.x(), speed.y(), speed.z(), spin.x(), spin.y(), spin.z()};
   for (std::size_t w = 0; robot.model.has_wheels && w < 2; ++w) {
     s.angle[w] = q[robot.wheel[w].position], s.rate[w] = v[robot.wheel[w].rate];

@@ -104,8 +104,7 @@ class World {
   Data data_;
   std::vector<std::size_t> shape_of_;  // of MuJoCo's geoms: indices of surfaces
   std::vector<double> wanted_;         // rates of motors [rad/s], by MuJoCo's degrees of freedom
-  // Buffers of solve().
-  std::vector<double> lag_, base_;
+  std::vector<int> slipping_;          // contacts with friction in the present step
 };
 
 }  // namespace muster::mujoco

@@ -3,9 +3,9 @@
 // MuJoCo's solver finds the accelerations nearest to the free ones, in the metric of the masses, under the constraints
 // of joints and the friction cones of contacts. Its own aims are springs of some time constant. Here each aim is a
 // velocity at the end of the step: motors at their rate, contacts closed or bouncing, rolling without slip.
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "world.hpp"
 
@@ -23,6 +23,38 @@ constexpr double far_off = -1e9;         // [m/s2]: an aim that no contact needs
 
 // Highest speed at which a gap may close in a step; what overlaps moves apart.
 double closing(double gap, double h) { return gap > 0 ? -gap / h : std::min(push_out, -taken_back * gap / h); }
+
+// At this speed a contact that slips so parts in MuJoCo. `slip`: along the normal (not used) and across it.
+double parting(const mjContact& contact, const double* slip) {
+  return std::hypot(contact.friction[0] * slip[1], contact.friction[1] * slip[2]);
+}
+
+// The fixed point of a map, from what it makes of the last few arguments (Anderson 1965).
+class Mixing {
+ public:
+  explicit Mixing(Eigen::Index size) : steps_(size, 0), changes_(size, 0) {}
+
+  // The next argument, none below 0.
+  Eigen::VectorXd next(const Eigen::VectorXd& argument, const Eigen::VectorXd& result) {
+    constexpr Eigen::Index most = 5;
+    const Eigen::VectorXd error = result - argument;
+    if (last_error_.size() > 0) {
+      const Eigen::Index kept = std::min(steps_.cols(), most - 1), size = argument.size();
+      Eigen::MatrixXd steps(size, kept + 1), changes(size, kept + 1);
+      steps << steps_.rightCols(kept), result - last_result_;
+      changes << changes_.rightCols(kept), error - last_error_;
+      steps_ = steps, changes_ = changes;
+    }
+    last_error_ = error, last_result_ = result;
+    if (steps_.cols() == 0) return result;
+    const Eigen::VectorXd weights = changes_.colPivHouseholderQr().solve(error);
+    return (result - steps_ * weights).cwiseMax(0);
+  }
+
+ private:
+  Eigen::MatrixXd steps_, changes_;  // of results and errors, from each to the next
+  Eigen::VectorXd last_error_, last_result_;
+};
 
 }  // namespace
 
@@ -100,51 +132,51 @@ void World::aim_contact(const mjContact& contact, double h) {
 }
 
 // MuJoCo's cones are convex: a contact that slips at speed v parts at friction times v. What its aim is lowered by that
-// much does not part and has Coulomb's friction (de Saxce's bipotential); the slip is found by iteration, each of which
-// takes the error to its share mu2 k / (1 + mu2 k), k being the ratio of the contact's mobilities along and across the
-// ground.
+// much does not part and has Coulomb's friction (de Saxce's bipotential). How much that is follows from the solution,
+// so it is found by iteration: each takes an error to its share mu2 k / (1 + mu2 k), k being the ratio of the contact's
+// mobilities along and across the ground. Under wheels that spin k is large; Anderson's mixing of the last iterations
+// finds the limit there.
 void World::solve(double h) {
-  constexpr int most = 50;
-  constexpr double close_enough = 1e-6;  // of an acceleration [m/s2], and relative
+  constexpr int most = 40;
+  constexpr double close_enough = 1e-5;  // of an acceleration [m/s2], and relative
   const mjModel* m = model_.get();
   mjData* d = data_.get();
-  const auto contacts = static_cast<std::size_t>(d->ncon);
-  base_.assign(contacts, 0);
-  const auto slips = [&](std::size_t c) {
-    const mjContact& contact = d->contact[c];
-    return contact.efc_address >= 0 && contact.dim > 1;
-  };
-  const auto parting = [&](const mjContact& contact, const double* slip) {
-    return std::hypot(contact.friction[0] * slip[1], contact.friction[1] * slip[2]);
-  };
-  std::vector<double> lowered(contacts, 0);
-  for (std::size_t c = 0; c < contacts; ++c) {
-    if (!slips(c)) continue;
-    const int row = d->contact[c].efc_address;
-    base_[c] = d->efc_aref[row];
-    lowered[c] = parting(d->contact[c], d->efc_vel + row) / h;
+  slipping_.clear();
+  for (int c = 0; c < d->ncon; ++c) {
+    if (d->contact[c].efc_address >= 0 && d->contact[c].dim > 1) slipping_.push_back(c);
   }
-  lag_.assign(static_cast<std::size_t>(d->nefc), 0);
+  const auto count = static_cast<Eigen::Index>(slipping_.size());
+  const auto contact = [&](Eigen::Index i) -> const mjContact& {
+    return d->contact[slipping_[static_cast<std::size_t>(i)]];
+  };
+  Eigen::VectorXd base(count), lowered(count), found(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int row = contact(i).efc_address;
+    base[i] = d->efc_aref[row];
+    lowered[i] = parting(contact(i), d->efc_vel + row) / h;
+  }
+  std::vector<double> reached(static_cast<std::size_t>(d->nefc));
+  Mixing mixing(count);
   for (int k = 0; k < most; ++k) {
-    for (std::size_t c = 0; c < contacts; ++c) {
-      if (slips(c)) d->efc_aref[d->contact[c].efc_address] = base_[c] - lowered[c];
-    }
+    for (Eigen::Index i = 0; i < count; ++i) d->efc_aref[contact(i).efc_address] = base[i] - lowered[i];
     mj_fwdConstraint(m, d);
-    if (d->nefc == 0) return;
+    if (count == 0) break;
     mju_copy(d->qacc_warmstart, d->qacc, m->nv);
-    mj_mulJacVec(m, d, lag_.data(), d->qacc);
-    bool is_done = true;
-    for (std::size_t c = 0; c < contacts; ++c) {
-      if (!slips(c)) continue;
-      const int row = d->contact[c].efc_address;
-      double slip[3];
-      for (int j = 0; j < 3; ++j) slip[j] = lag_[static_cast<std::size_t>(row + j)] - d->efc_aref[row + j];
-      const double now = parting(d->contact[c], slip);
-      is_done &= std::abs(now - lowered[c]) <= close_enough * (1 + now);
-      lowered[c] = now;
+    mj_mulJacVec(m, d, reached.data(), d->qacc);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const int row = contact(i).efc_address;
+      const double* at = reached.data() + row;
+      const double slip[] = {0, at[1] - d->efc_aref[row + 1], at[2] - d->efc_aref[row + 2]};
+      found[i] = parting(contact(i), slip);
     }
-    if (is_done) return;
+    if (((found - lowered).array().abs() <= close_enough * (1 + found.array())).all()) break;
+    lowered = mixing.next(lowered, found);
   }
+  if (d->nefc == 0) return;
+  // MuJoCo's solver settles accelerations to the root of what a double resolves. Those that its forces give keep the
+  // momentum to the last bits.
+  mju_add(d->qacc, d->qfrc_smooth, d->qfrc_constraint, m->nv);
+  mj_solveM(m, d, d->qacc, d->qacc, 1);
 }
 
 }  // namespace muster::mujoco
