@@ -183,10 +183,21 @@ void World::lift(const Robot& robot, const Command& command, double h, RobotStat
   state.rotors = rotors.later(state.rotors, command.rotors, rotors.decay(h));
 }
 
-// MuJoCo's mj_step in its parts, with contacts and the constraints' targets set between them. `mj_kinematics` is done.
+// MuJoCo's mj_step in its parts, with contacts and the constraints' targets set between them. Forces of the bodies' own
+// motion are those at the start of the step, as Euler's method has them. Constraints are those of the places in its
+// middle: what rolls goes where its wheels point then, which makes rolling of second order. `mj_kinematics` is done.
 void World::move(double h) {
   const mjModel* m = model_.get();
   mjData* d = data_.get();
+  mj_comPos(m, d);
+  mj_comVel(m, d);
+  mj_passive(m, d);
+  mj_rne(m, d, 0, d->qfrc_bias);
+  start_.assign(d->qpos, d->qpos + m->nq);
+  passive_.assign(d->qfrc_passive, d->qfrc_passive + m->nv);
+  bias_.assign(d->qfrc_bias, d->qfrc_bias + m->nv);
+  mj_integratePos(m, d->qpos, d->qvel, h / 2);
+  mj_kinematics(m, d);
   mj_comPos(m, d);
   mj_crb(m, d);
   mj_factorM(m, d);
@@ -196,9 +207,12 @@ void World::move(double h) {
   if (d->warning[mjWARN_CONTACTFULL].number || d->warning[mjWARN_CNSTRFULL].number) throw Full();
   mj_fwdVelocity(m, d);
   aim(h);
+  std::copy(passive_.begin(), passive_.end(), d->qfrc_passive);
+  std::copy(bias_.begin(), bias_.end(), d->qfrc_bias);
   mj_fwdActuation(m, d);
   mj_fwdAcceleration(m, d);
   solve(h);
+  std::copy(start_.begin(), start_.end(), d->qpos);
   mj_Euler(m, d);
 }
 

@@ -104,6 +104,7 @@ class World {
   Data data_;
   std::vector<std::size_t> shape_of_;  // of MuJoCo's geoms: indices of surfaces
   std::vector<double> wanted_;         // rates of motors [rad/s], by MuJoCo's degrees of freedom
+  std::vector<double> start_, passive_, bias_;  // of a step: MuJoCo's coordinates, and forces of the motion
   std::vector<int> slipping_;          // contacts with friction in the present step
 };
 

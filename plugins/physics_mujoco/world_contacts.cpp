@@ -98,7 +98,7 @@ void World::hold(const Surface& wheel, mjContact& contact) const {
 void World::aim(double h) {
   mjData* d = data_.get();
   for (int row = 0; row < d->nefc; ++row) {
-    const double velocity = d->efc_vel[row], gap = d->efc_pos[row];
+    const double velocity = d->efc_vel[row], gap = d->efc_pos[row] - h / 2 * velocity;
     switch (d->efc_type[row]) {
       case mjCNSTR_EQUALITY:
         d->efc_aref[row] = (-taken_back * gap / h - velocity) / h;
@@ -123,10 +123,11 @@ void World::aim_contact(const mjContact& contact, double h) {
   const int row = contact.efc_address;
   const double velocity = d->efc_vel[row];
   const double share = std::min(surface(contact.geom1).restitution, surface(contact.geom2).restitution);
-  if (share > 0 && velocity < -slowest_bounce) {  // it bounces where it has met
-    d->efc_aref[row] = contact.dist > 0 ? far_off : -(1 + share) * velocity / h;
+  const double gap = contact.dist - h / 2 * velocity;  // at the start of the step
+  if (share > 0 && velocity < -slowest_bounce) {       // it bounces where it has met
+    d->efc_aref[row] = gap > 0 ? far_off : -(1 + share) * velocity / h;
   } else {
-    d->efc_aref[row] = (closing(contact.dist, h) - velocity) / h;
+    d->efc_aref[row] = (closing(gap, h) - velocity) / h;
   }
   for (int k = 1; k < contact.dim; ++k) d->efc_aref[row + k] = -d->efc_vel[row + k] / h;
 }
