@@ -12,8 +12,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double fastest = 1e3;   // [m/s], [rad/s]: beyond, the motion has blown up
-constexpr int most_rows = 40000;  // of constraints, whose matrices MuJoCo keeps whole
+constexpr double fastest = 1e3;  // [m/s], [rad/s]: beyond, the motion has blown up
+// Of the solver's cost, over the world's inertia: beyond, it only polishes what is next to rounding. So small, since
+// one heavy robot makes that inertia large for all.
+constexpr double settled = 1e-15;
+constexpr int most_rows = 15000;  // of constraints: MuJoCo counts the bytes of a square matrix of them in an int
 
 Vector3d vector(const double* values) { return {values[0], values[1], values[2]}; }
 
@@ -26,7 +29,8 @@ Quaterniond turn_of(const Limb& limb) {
 
 }  // namespace
 
-World::World(const std::vector<NamedRobot>& robots, const Settings& settings) : settings_(settings) {
+World::World(const std::vector<NamedRobot>& robots, const Settings& settings, const Room& room)
+    : settings_(settings), room_(room) {
   for (const NamedRobot& named : robots) robots_.push_back({named.name, model_of(*named.description)});
   build();
 }
@@ -45,7 +49,7 @@ void World::build() {
   model_ = compile(text_.mjcf);
   guarded([this] { data_ = data_of(model_.get()); });
   model_->opt.iterations = settings_.iterations;
-  model_->opt.tolerance = 0;
+  model_->opt.tolerance = settled;
   const auto id = [this](mjtObj kind, const std::string& name) { return mj_name2id(model_.get(), kind, name.c_str()); };
   shape_of_.assign(text_.surfaces.size(), 0);
   wanted_.assign(static_cast<std::size_t>(model_->nv), 0);

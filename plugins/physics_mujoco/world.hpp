@@ -50,8 +50,9 @@ struct NamedRobot {
 
 class World {
  public:
-  // Throws std::runtime_error for a robot that it cannot model.
-  World(const std::vector<NamedRobot>& robots, const Settings& settings);
+  // Throws std::runtime_error for a robot that it cannot model. `room` is made larger where it does not do; without
+  // rows, it is that of the robots each by itself.
+  World(const std::vector<NamedRobot>& robots, const Settings& settings, const Room& room = {});
 
   void set_walls(const std::vector<scene::Slab>& walls);
 
@@ -59,6 +60,8 @@ class World {
   // MuJoCo's warnings, "" if there are none. Throws std::runtime_error naming the robot whose motion is no longer
   // finite.
   std::string step(double dt, const std::vector<Command>& commands, std::vector<RobotState>& states);
+
+  const Room& room() const { return room_; }
 
  private:
   // Where a joint's coordinates and rates are in MuJoCo's vectors.
@@ -102,10 +105,10 @@ class World {
   Text text_;
   Model model_;
   Data data_;
-  std::vector<std::size_t> shape_of_;  // of MuJoCo's geoms: indices of surfaces
-  std::vector<double> wanted_;         // rates of motors [rad/s], by MuJoCo's degrees of freedom
+  std::vector<std::size_t> shape_of_;           // of MuJoCo's geoms: indices of surfaces
+  std::vector<double> wanted_;                  // rates of motors [rad/s], by MuJoCo's degrees of freedom
   std::vector<double> start_, passive_, bias_;  // of a step: MuJoCo's coordinates, and forces of the motion
-  std::vector<int> slipping_;          // contacts with friction in the present step
+  std::vector<int> slipping_;                   // contacts with friction in the present step
 };
 
 }  // namespace muster::mujoco

@@ -138,8 +138,8 @@ void World::aim_contact(const mjContact& contact, double h) {
 // mobilities along and across the ground. Under wheels that spin k is large; Anderson's mixing of the last iterations
 // finds the limit there.
 void World::solve(double h) {
-  constexpr int most = 40;
-  constexpr double close_enough = 1e-5;  // of an acceleration [m/s2], and relative
+  constexpr int most = 20;
+  constexpr double close_enough = 1e-6;  // of a contact's speed at the end of the step [m/s], and relative to its slip
   const mjModel* m = model_.get();
   mjData* d = data_.get();
   slipping_.clear();
@@ -170,7 +170,7 @@ void World::solve(double h) {
       const double slip[] = {0, at[1] - d->efc_aref[row + 1], at[2] - d->efc_aref[row + 2]};
       found[i] = parting(contact(i), slip);
     }
-    if (((found - lowered).array().abs() <= close_enough * (1 + found.array())).all()) break;
+    if (((found - lowered).array().abs() <= close_enough * (1 / h + found.array())).all()) break;
     lowered = mixing.next(lowered, found);
   }
   if (d->nefc == 0) return;
