@@ -8,7 +8,8 @@ class XQuadrotors : public testing::TestWithParam<const char*> {
  protected:
   const Folder folder;
 };
-INSTANTIATE_TEST_SUITE_P(Backends, XQuadrotors, testing::Values("physics.simbody", "physics.ode"), name_of);
+INSTANTIATE_TEST_SUITE_P(Backends, XQuadrotors,
+                         testing::ValuesIn(built({"physics.simbody", "physics.ode", "physics.mujoco"})), name_of);
 
 Pose after(const Folder& folder, const std::string& model, const std::string& physics, const std::string& asked) {
   const auto file = folder.write(
@@ -20,7 +21,8 @@ Pose after(const Folder& folder, const std::string& model, const std::string& ph
   return row<Pose>(run, "robot/r/pose");
 }
 
-// Rotors speed up faster than they slow down, so a roll of a plus lifts and turns it a little, and one of an X does not.
+// Rotors speed up faster than they slow down, so a roll of a plus lifts and turns it a little, and one of an X does
+// not.
 TEST_P(XQuadrotors, FlyAsAPlusDoes) {
   const std::string x =
       model_with(folder, "hummingbird", {{"height=\"0.01\"", "height=\"0.01\" rotor_angle=\"0.7853981633974483\""}});
