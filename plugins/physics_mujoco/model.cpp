@@ -104,7 +104,7 @@ class Writer {
       const description::Steering& car = *model.drive.steering;
       for (int side = 0; side < 2; ++side) {
         Surface surface = own(i, model.drive.friction);
-        surface.holds_along = true, surface.steered = side;
+        surface.holds_along = true, surface.steered = side, surface.carries = model.mass / 4;
         text += tyre(car.radius, moved(i, -1, car.middle(side, 0)), surface);
       }
     }
@@ -127,6 +127,9 @@ class Writer {
     const RobotModel& model = robots_[i];
     const Wheel& one = model.wheels[w];
     Surface surface = own(i, model.drive.friction);
+    const std::size_t wheels = model.wheels.size();
+    if (wheels > 2 || model.drive.steering)
+      surface.carries = model.mass / static_cast<double>(std::max<std::size_t>(4, wheels));
     if (model.drive.mecanum) surface.holds_along = true, surface.along = description::Mecanum::hold(w);
     return "<body name='" + wheel_name(i, w) + "'" + place(moved(i, -1, one.frame)) + "><joint type='hinge' name='" +
            wheel_name(i, w) + "' axis='" + vector(one.axis) + "'/>" + inertial(one.mass, one.mass.centre) +

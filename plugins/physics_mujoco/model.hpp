@@ -25,6 +25,7 @@ struct Surface {
   int robot = nobody;            // index; nobody: ground or wall
   double friction, restitution;  // of a pair the smaller ones count
   bool holds_along = false;      // of a roller or a free wheel: friction acts only along `along`, in the body's frame
+  double carries = 0;            // of one of more than two wheels: its share of the robot's mass [kg]
   int steered = nobody;          // a car's front wheel: 0 left, 1 right
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
 };

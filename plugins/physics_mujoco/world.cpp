@@ -209,6 +209,7 @@ void World::move(double h) {
   touch();
   mj_makeConstraint(m, d);
   if (d->warning[mjWARN_CONTACTFULL].number || d->warning[mjWARN_CNSTRFULL].number) throw Full();
+  let_roll();
   mj_fwdVelocity(m, d);
   aim(h);
   std::copy(passive_.begin(), passive_.end(), d->qfrc_passive);

@@ -91,9 +91,11 @@ class World {
   // The step's contacts and constraints (world_contacts.cpp).
   void touch();
   bool keep(mjContact& contact) const;
+  void let_roll();
   void hold(const Surface& wheel, mjContact& contact) const;
   void aim(double h);
-  void aim_contact(const mjContact& contact, double h);
+  void aim_contact(mjContact& contact, double h);
+  void soften(mjContact& contact, double gap, double h);
   void solve(double h);
   const Surface& surface(int geom) const { return text_.surfaces[shape_of_[static_cast<std::size_t>(geom)]]; }
 

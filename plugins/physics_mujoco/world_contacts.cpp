@@ -81,7 +81,7 @@ bool World::keep(mjContact& contact) const {
   return true;
 }
 
-// Friction along one direction; across it the wheel rolls with MuJoCo's least one.
+// Turns the contact's first tangent to the direction along which the wheel holds; let_roll() frees the second.
 void World::hold(const Surface& wheel, mjContact& contact) const {
   if (contact.dim == 1) return;
   const double* turned = data_->xmat + 9 * robots_[static_cast<std::size_t>(wheel.robot)].body;
@@ -92,7 +92,32 @@ void World::hold(const Surface& wheel, mjContact& contact) const {
   const Vector3d across = normal.cross(along);
   std::copy(along.data(), along.data() + 3, contact.frame + 3);
   std::copy(across.data(), across.data() + 3, contact.frame + 6);
-  contact.friction[1] = weakest;
+}
+
+// Across the direction in which a roller or a free wheel holds, its contact has no velocity to act on: what is left of
+// the cone is Coulomb's law along the one direction.
+void World::let_roll() {
+  const mjModel* m = model_.get();
+  mjData* d = data_.get();
+  std::vector<bool> is_free(static_cast<std::size_t>(d->nefc), false);
+  bool any = false;
+  for (int c = 0; c < d->ncon; ++c) {
+    const mjContact& contact = d->contact[c];
+    if (contact.efc_address < 0 || contact.dim == 1) continue;
+    if (!surface(contact.geom1).holds_along && !surface(contact.geom2).holds_along) continue;
+    is_free[static_cast<std::size_t>(contact.efc_address) + 2] = any = true;
+  }
+  if (!any) return;
+  for (int row = 0; row < d->nefc; ++row) {
+    if (!is_free[static_cast<std::size_t>(row)]) continue;
+    double* first = d->efc_J + (mj_isSparse(m) ? d->efc_J_rowadr[row] : row * m->nv);
+    std::fill_n(first, mj_isSparse(m) ? d->efc_J_rownnz[row] : m->nv, 0.0);
+  }
+  for (int dof = 0; mj_isSparse(m) && dof < m->nv; ++dof) {  // the same transposed
+    for (int k = d->efc_JT_rowadr[dof]; k < d->efc_JT_rowadr[dof] + d->efc_JT_rownnz[dof]; ++k) {
+      if (is_free[static_cast<std::size_t>(d->efc_JT_colind[k])]) d->efc_JT[k] = 0;
+    }
+  }
 }
 
 void World::aim(double h) {
@@ -118,7 +143,7 @@ void World::aim(double h) {
   }
 }
 
-void World::aim_contact(const mjContact& contact, double h) {
+void World::aim_contact(mjContact& contact, double h) {
   mjData* d = data_.get();
   const int row = contact.efc_address;
   const double velocity = d->efc_vel[row];
@@ -128,8 +153,31 @@ void World::aim_contact(const mjContact& contact, double h) {
     d->efc_aref[row] = gap > 0 ? far_off : -(1 + share) * velocity / h;
   } else {
     d->efc_aref[row] = (closing(gap, h) - velocity) / h;
+    soften(contact, gap, h);
   }
   for (int k = 1; k < contact.dim; ++k) d->efc_aref[row + k] = -d->efc_vel[row + k] / h;
+}
+
+// Rigid contacts of more than three points do not determine how they share a weight, and then the solver's rest error
+// does. Wheels of which there are more share it as springs and dampers that sink by 0.1 mm, all others with a small
+// multiple of MuJoCo's least softness, by which nothing sinks more than 0.001 mm.
+void World::soften(mjContact& contact, double gap, double h) {
+  constexpr double sunk = 1e-4, hardly = 1e-6;   // [m]
+  constexpr double least = 1e-4, wanted = 1e-2;  // softness over the contact's mobility: MuJoCo's, and that here
+  mjData* d = data_.get();
+  const int row = contact.efc_address;
+  const double carries = std::max(surface(contact.geom1).carries, surface(contact.geom2).carries);
+  double& softness = d->efc_R[row];
+  if (carries > 0) {  // at the end of the step: force = -stiffness gap - damping velocity
+    const double stiffness = carries * gravity / sunk, damping = 2 * std::sqrt(stiffness * carries);
+    const double stiff = h * stiffness + damping;
+    softness = 1 / (stiff * h);
+    d->efc_aref[row] = -(d->efc_vel[row] + stiffness * gap / stiff) / h;
+  } else {
+    softness *= std::max(1.0, std::min(wanted, hardly * taken_back / (gravity * h * h)) / least);
+  }
+  d->efc_D[row] = 1 / softness;
+  if (contact.dim > 1) contact.mu = contact.friction[0] * std::sqrt(d->efc_R[row + 1] / softness);
 }
 
 // MuJoCo's cones are convex: a contact that slips at speed v parts at friction times v. What its aim is lowered by that
