@@ -73,6 +73,8 @@ void World::touch() {
 bool World::keep(mjContact& contact) const {
   const Surface &a = surface(contact.geom1), &b = surface(contact.geom2);
   if (a.robot == b.robot) return false;  // parts of one robot do not collide
+  // MuJoCo acts half way into the ground: a wheel that sinks would roll on a smaller radius.
+  if (model_->geom_type[contact.geom1] == mjGEOM_PLANE) mju_addToScl3(contact.pos, contact.frame, contact.dist / 2);
   const double friction = std::min(a.friction, b.friction);
   contact.dim = friction > weakest ? 3 : 1;
   std::fill(std::begin(contact.friction), std::end(contact.friction), std::max(friction, weakest));

@@ -33,7 +33,7 @@ std::vector<Backend> table() {
   mujoco.smooth = {{"friction", "0"}};
   mujoco.height = mujoco.slip = mujoco.torque = mujoco.round_friction = mujoco.load_transfer = true;
   mujoco.rotors = mujoco.limbs = mujoco.bouncing = mujoco.pushed = true;
-  mujoco.order = 2, mujoco.coarsest_of_order = 0.04, mujoco.flight_order = 1;
+  mujoco.order = 2, mujoco.coarsest_of_order = 0.08, mujoco.flight_order = 1;
   mujoco.fall = 5e-3, mujoco.rest = 1e-6, mujoco.arc = 1e-3, mujoco.course = 1e-4, mujoco.ramp = 1e-3;
   mujoco.climb = 5e-3, mujoco.spin = 3e-3, mujoco.collision = 1e-12, mujoco.bounce = 0.1, mujoco.force = 0.01;
   mujoco.apex = 0.04, mujoco.slide = 5e-3;
