@@ -211,7 +211,8 @@ std::string limb_name(std::size_t robot, std::size_t limb) { return body_name(ro
 RobotModel model_of(const description::Robot& robot) {
   std::vector<std::string> reasons = rigid::lacks(robot, [](const description::Joint&) { return std::string(); });
   if (robot.restitution > 0 && robot.drive)
-    reasons.push_back("it bounces on wheels, whose motors act within the impact here (physics.simbody takes such robots)");
+    reasons.push_back(
+        "it bounces on wheels, whose motors act within the impact here (physics.simbody takes such robots)");
   rigid::refuse(robot, "physics.mujoco", reasons);
   return RobotModel(robot);
 }
