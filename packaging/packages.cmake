@@ -1,5 +1,5 @@
-# cpack -G DEB in the build folder: muster (program, plugins, worlds), muster-dev (what is built against it), muster-ns3 where ns-3 is,
-# and python3-muster where Python's parts are.
+# cpack -G DEB in the build folder: muster (program, plugins, worlds), muster-dev (what is built against it), muster-ns3 and muster-mujoco where
+# these simulators are, and python3-muster where Python's parts are.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME muster)
 set(CPACK_PACKAGE_VENDOR "muster")
@@ -41,6 +41,15 @@ if(TARGET network_ns3)
 The plugin network.ns3.")
 endif()
 
+if(TARGET physics_mujoco)
+  list(APPEND CPACK_COMPONENTS_ALL mujoco)
+  set(CPACK_DEBIAN_MUJOCO_PACKAGE_NAME muster-mujoco)
+  set(CPACK_DEBIAN_MUJOCO_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_MUJOCO_PACKAGE_DEPENDS "muster (= ${release})")
+  set(CPACK_COMPONENT_MUJOCO_DESCRIPTION "robots of muster in MuJoCo
+The plugin physics.mujoco.")
+endif()
+
 if(MUSTER_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-muster)
@@ -63,6 +72,9 @@ execute_process(COMMAND date -u -R -d "${released}" OUTPUT_VARIABLE released OUT
 set(components muster dev)
 if(TARGET network_ns3)
   list(APPEND components ns3)
+endif()
+if(TARGET physics_mujoco)
+  list(APPEND components mujoco)
 endif()
 if(MUSTER_PYTHON)
   list(APPEND components python)

@@ -90,7 +90,7 @@ World::World(const std::vector<NamedRobot>& robots, const Settings& settings)
   dWorldSetQuickStepW(world_.get(), settings.over_relaxation);
   dWorldSetContactMaxCorrectingVel(world_.get(), push_out);
   dSpaceAdd(space_.get(), add_geom(dCreatePlane(nullptr, 0, 0, 1, 0), ground, 0, as_the_other, as_the_other));
-  for (const NamedRobot& named : robots) robots_.push_back({named.name, RobotModel(*named.description)});
+  for (const NamedRobot& named : robots) robots_.push_back({named.name, model_of(*named.description)});
   for (Robot& robot : robots_) add(robot);
   surfaces_of_robots_ = surfaces_.size();
 }

@@ -29,10 +29,20 @@ std::vector<Backend> table() {
   quick.bounce = 0.1;
   quick.rest = 3e-3, quick.arc = 1e-2, quick.course = 5e-3, quick.ramp = 0.015, quick.force = 0.02;
 
+  Backend mujoco{"mujoco", "physics.mujoco", {}, true};
+  mujoco.smooth = {{"friction", "0"}};
+  mujoco.height = mujoco.slip = mujoco.torque = mujoco.round_friction = mujoco.load_transfer = true;
+  mujoco.rotors = mujoco.limbs = mujoco.bouncing = mujoco.pushed = true;
+  mujoco.order = 2, mujoco.coarsest_of_order = 0.08, mujoco.flight_order = 1;
+  mujoco.fall = 5e-3, mujoco.rest = 1e-6, mujoco.arc = 1e-3, mujoco.course = 1e-4, mujoco.ramp = 1e-3;
+  mujoco.climb = 5e-3, mujoco.spin = 3e-3, mujoco.collision = 1e-12, mujoco.bounce = 0.1, mujoco.force = 0.01;
+  mujoco.apex = 0.04, mujoco.slide = 5e-3;
+  mujoco.pendulum = "axle", mujoco.swing = 3e-3;
+
   Backend planar{"planar", "physics.planar", {}};
   planar.order = 2, planar.coarsest_of_order = 0.08;
   planar.rest = 1e-12, planar.arc = 1e-9, planar.course = 1e-4, planar.ramp = 1e-6;
-  return {simbody, ode, quick, planar};
+  return {simbody, ode, quick, mujoco, planar};
 }
 
 // The built backends of the table, and the given one.

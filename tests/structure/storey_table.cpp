@@ -17,7 +17,7 @@ const Storeys& storeys() {
       {"plotting", {"text"}},
 
       // A plugin includes its own folder and the headers beside all folders of plugins; never kernel/ or loader/.
-      {"plugins", {"plugin_api", "scene"}},
+      {"plugins", {"plugin_api", "scene", "description"}},
       {"plugins/*", {"plugin_api", "scene", "description", "medium", "plugins"}},
       {"plugins/causes", {"plugin_api", "scene", "plugins", "plugins/radio_fading"}},
 

@@ -12,11 +12,13 @@
 #include <string>
 
 #include "description/robot.hpp"
+#include "tests/backends.hpp"
 #include "tests/run_world.hpp"
 
 namespace muster::test {
 
-inline const char* const backends[] = {"physics.planar", "physics.simbody", "physics.ode"};
+inline const std::vector<const char*> backends =
+    built({"physics.planar", "physics.simbody", "physics.ode", "physics.mujoco"});
 inline const std::string models = MUSTER_SOURCE_DIR "/plugins/robots/models/";
 
 inline std::string name_of(const testing::TestParamInfo<const char*>& made) {

@@ -8,7 +8,8 @@ class XQuadrotors : public testing::TestWithParam<const char*> {
  protected:
   const Folder folder;
 };
-INSTANTIATE_TEST_SUITE_P(Backends, XQuadrotors, testing::Values("physics.simbody", "physics.ode"), name_of);
+INSTANTIATE_TEST_SUITE_P(Backends, XQuadrotors,
+                         testing::ValuesIn(built({"physics.simbody", "physics.ode", "physics.mujoco"})), name_of);
 
 Pose after(const Folder& folder, const std::string& model, const std::string& physics, const std::string& asked) {
   const auto file = folder.write(

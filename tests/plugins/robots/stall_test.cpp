@@ -5,6 +5,7 @@
 #include <string>
 
 #include "robot_world.hpp"
+#include "tests/backends.hpp"
 
 namespace {
 
@@ -68,7 +69,8 @@ TEST(Stall, IsOfEitherWheel) {
 
 TEST_P(EachBackend, WheelsThatSlipDoNotStall) { EXPECT_EQ(stalled("2.765"), (std::array{0, 0, 0})); }
 
-INSTANTIATE_TEST_SUITE_P(Physics, EachBackend, testing::Values("physics.simbody", "physics.ode"),
+INSTANTIATE_TEST_SUITE_P(Physics, EachBackend,
+                         testing::ValuesIn(built({"physics.simbody", "physics.ode", "physics.mujoco"})),
                          [](const auto& backend) { return std::string(backend.param).substr(8); });
 
 }  // namespace

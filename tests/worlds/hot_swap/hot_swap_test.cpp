@@ -5,14 +5,17 @@
 #include <cmath>
 
 #include "kernel/simulation.hpp"
+#include "tests/backends.hpp"
 
 namespace muster {
 namespace {
 
 constexpr double acceleration = 0.8 * 9.81;  // [m/s2] what all backends declare for the Scarab: friction times gravity
 
+const std::filesystem::path folder = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds/hot_swap";
+
 std::unique_ptr<Simulation> hot_swap(std::vector<SwapDeclaration> swaps = {}) {
-  World world = read_world(std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds/hot_swap", standard());
+  World world = read_world(folder, standard());
   world.swaps = std::move(swaps);
   return std::make_unique<Simulation>(std::move(world), standard(), Options{{MUSTER_PLUGINS_DIR}, 1, {}});
 }
@@ -33,14 +36,20 @@ struct Handover {
 };
 void PrintTo(const Handover& handover, std::ostream* out) { *out << handover.from << " to " << handover.to; }
 
-// One after the other, as in the world's file.
-const std::vector<Handover> chain = {
-    {"physics.simbody", "physics.ode", {"dropped robot/*/contact, which nobody writes any more"}},
-    {"physics.ode",
-     "physics.planar",
-     {"it cannot hold changes of height", "wheel slip", "dropped robot/*/hinged",
-      "dropped instance/physics/*/complaints"}},
-    {"physics.planar", "physics.simbody", {}}};
+// One after the other, as in the world's files.
+std::vector<Handover> chain() {
+  std::vector<Handover> result = {
+      {"physics.simbody", "physics.ode", {"dropped robot/*/contact, which nobody writes any more"}},
+      {"physics.ode",
+       "physics.planar",
+       {"it cannot hold changes of height", "wheel slip", "dropped robot/*/hinged",
+        "dropped instance/physics/*/complaints"}},
+      {"physics.planar", "physics.simbody", {}}};
+  if (test::built({"physics.mujoco"}).empty()) return result;
+  result.push_back({"physics.ode", "physics.mujoco", {"dropped robot/*/hinged"}});
+  result.push_back({"physics.mujoco", "physics.planar", {"it cannot hold changes of height", "wheel slip"}});
+  return result;
+}
 
 class HotSwap : public testing::TestWithParam<Handover> {};
 
@@ -73,7 +82,7 @@ TEST_P(HotSwap, HandsOverEveryBitAndKeepsTheAccelerationBound) {
         << "robot " << r;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Backends, HotSwap, testing::ValuesIn(chain),
+INSTANTIATE_TEST_SUITE_P(Backends, HotSwap, testing::ValuesIn(chain()),
                          [](const auto& made) { return made.param.from.substr(8) + "_to_" + made.param.to.substr(8); });
 
 // The robots end where they would have without a swap, but for what the models differ in: rolling without slip is the
@@ -89,6 +98,26 @@ TEST(HotSwapRun, EndsNearTheRunWithoutSwaps) {
   for (std::size_t r = 0; r < 2; ++r)
     EXPECT_LT(std::hypot(a[r * 7] - b[r * 7], a[r * 7 + 1] - b[r * 7 + 1]), 0.02) << "robot " << r;
   EXPECT_NE(a, b);  // they are three models
+}
+
+// The world with four backends, as it is shipped.
+TEST(HotSwapRun, GoesThroughMujoco) {
+  if (test::built({"physics.mujoco"}).empty()) GTEST_SKIP() << "needs libmujoco-dev";
+  auto plain = hot_swap();
+  Simulation run(read_world(folder / "mujoco.xml", standard()), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
+  while (!run.done()) run.step();
+  run_to(*plain, run.time());
+  std::vector<std::string> swaps;
+  for (const auto& event : run.events()) {
+    if (event.message.find("swapped from ") != std::string::npos) swaps.push_back(event.message);
+  }
+  const std::vector<std::string> expected{"physics.simbody to physics.ode", "physics.ode to physics.mujoco",
+                                          "physics.mujoco to physics.planar", "physics.planar to physics.simbody"};
+  ASSERT_EQ(swaps.size(), expected.size());
+  for (std::size_t k = 0; k < swaps.size(); ++k) EXPECT_NE(swaps[k].find(expected[k]), std::string::npos) << swaps[k];
+  const auto a = cells(*plain, "robot/*/pose"), b = cells(run, "robot/*/pose");
+  for (std::size_t r = 0; r < 2; ++r)
+    EXPECT_LT(std::hypot(a[r * 7] - b[r * 7], a[r * 7 + 1] - b[r * 7 + 1]), 0.02) << "robot " << r;
 }
 
 // Planned in the world file and asked for by hand are one thing.

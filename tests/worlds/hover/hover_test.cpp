@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "plugins/controllers/timed_path.hpp"
+#include "tests/backends.hpp"
 #include "tests/run_world.hpp"
 
 namespace muster::test {
@@ -34,7 +35,8 @@ class Hover : public Simulation {
 double speed(const Twist& t) { return std::hypot(t.vx, t.vy, t.vz); }
 
 class OnEach : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Backends, OnEach, testing::Values("physics.simbody", "physics.ode"),
+INSTANTIATE_TEST_SUITE_P(Backends, OnEach,
+                         testing::ValuesIn(test::built({"physics.simbody", "physics.ode", "physics.mujoco"})),
                          [](const auto& made) { return std::string(made.param).substr(8); });
 
 TEST_P(OnEach, HoversWithoutDrift) {

@@ -8,6 +8,7 @@
 #include <muster/sets.hpp>
 #include <string>
 
+#include "tests/backends.hpp"
 #include "tests/run_world.hpp"
 
 namespace muster::test {
@@ -34,7 +35,8 @@ inline const StockRobot bare_burger{"bare_burger", "turtlebot3_burger.urdf", "",
 inline const StockRobot waffle{"waffle", "waffle"}, husky{"husky", "husky"};
 inline const StockRobot husky_like{"husky_like", "husky_like.urdf", "", true};
 
-inline const char* const backends[] = {"physics.planar", "physics.simbody", "physics.ode"};
+inline const std::vector<const char*> backends =
+    built({"physics.planar", "physics.simbody", "physics.ode", "physics.mujoco"});
 
 inline Simulation stock_world(const Folder& folder, const StockRobot& robot, const std::string& physics,
                               const std::string& inside, const std::string& until) {

@@ -71,7 +71,7 @@ TEST(SkidSteer, EnginesAgree) {
 
 // The state of all four wheels is on the blackboard: an instance made anew in a turn goes on with the same bits.
 TEST(SkidSteer, MadeAgainGoesOnAlike) {
-  for (const char* physics : {"physics.simbody", "physics.ode"}) {
+  for (const char* physics : built({"physics.simbody", "physics.ode", "physics.mujoco"})) {
     Pose ends[2];
     for (int k = 0; k < 2; ++k) {
       Folder folder;

@@ -22,7 +22,7 @@ std::vector<std::string> warnings(const Folder& folder, const std::string& insid
 
 TEST(RobotWarnings, CommandedWithoutADrive) {
   Folder folder;
-  for (const char* physics : {"physics.simbody", "physics.ode"}) {
+  for (const char* physics : built({"physics.simbody", "physics.ode", "physics.mujoco"})) {
     EXPECT_THAT(
         warnings(folder, std::string("<robot name=\"r\" model=\"crate\" at=\"0 0 0\"/><") + physics +
                              "/><control.steady robot=\"r\" v=\"1\" w=\"0\"/>"),
@@ -69,7 +69,7 @@ TEST(RobotWarnings, StartsInAWallOrARobot) {
       "-1 0\"/>"
       "<robot name=\"c\" model=\"crate\" at=\"2.39 -1 0\"/><robot name=\"d\" model=\"crate\" at=\"2 -1 0.25\"/>"
       "<robot name=\"e\" model=\"crate\" at=\"4 -0.001 0\"/>";
-  for (const char* physics : {"physics.simbody", "physics.ode"}) {
+  for (const char* physics : built({"physics.simbody", "physics.ode", "physics.mujoco"})) {
     EXPECT_THAT(warnings(folder, inside + "<" + physics + "/>"),
                 ElementsAre("warning: world.xml:1:157: robot 'a' starts in wall 'north', 50 mm deep, and will be "
                             "pushed out; expected a "

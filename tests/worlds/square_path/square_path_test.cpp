@@ -5,6 +5,7 @@
 #include <cmath>
 #include <muster/tables.hpp>
 
+#include "tests/backends.hpp"
 #include "tests/run_world.hpp"
 #include "text/number.hpp"
 
@@ -42,7 +43,9 @@ Pose end_of(const std::string& physics, Way way, const Errors& errors) {
 }
 
 class Umbmark : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Backends, Umbmark, testing::Values("physics.planar", "physics.simbody", "physics.ode"),
+INSTANTIATE_TEST_SUITE_P(Backends, Umbmark,
+                         testing::ValuesIn(test::built({"physics.planar", "physics.simbody", "physics.ode",
+                                                        "physics.mujoco"})),
                          [](const auto& made) { return std::string(made.param).substr(8); });
 
 // The last way point counts as reached 0.01 m before it, which is how far 2 m/s2 takes from 0.2 m/s to rest.

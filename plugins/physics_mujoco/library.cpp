@@ -1,0 +1,81 @@
+#include "library.hpp"
+
+#include <array>
+#include <cstring>
+#include <mutex>
+#include <shared_mutex>
+#include <stdexcept>
+
+namespace muster::mujoco {
+
+namespace {
+
+std::mutex global;  // guards the count of users
+int users = 0;
+std::shared_mutex compiling;  // held alone by who compiles, shared by who steps
+thread_local Warnings* counted = nullptr;
+
+using Handler = void (*)(const char*);
+Handler error_before = nullptr, warning_before = nullptr;
+
+// MuJoCo expects that this does not return. Its frames hold nothing that must be freed, and Debian builds them with
+// tables for unwinding.
+[[noreturn]] void fail(const char* message) { throw std::runtime_error(std::string("MuJoCo: ") + message); }
+
+void count(const char* message) {
+  if (!counted) return;
+  if (counted->count++ == 0) counted->first = message;
+}
+
+void set_handlers() {
+  mju_user_error = fail;
+  mju_user_warning = count;
+}
+
+}  // namespace
+
+Library::Library() {
+  const std::lock_guard<std::mutex> lock(global);
+  if (users++) return;
+  error_before = mju_user_error, warning_before = mju_user_warning;
+  set_handlers();
+}
+
+Library::~Library() {
+  const std::lock_guard<std::mutex> lock(global);
+  if (--users) return;
+  mju_user_error = error_before, mju_user_warning = warning_before;
+}
+
+Warnings::Warnings() { counted = this; }
+Warnings::~Warnings() { counted = nullptr; }
+
+Model compile(const std::string& mjcf) {
+  constexpr const char* name = "world.xml";
+  const std::unique_lock<std::shared_mutex> alone(compiling);
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  if (mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(mjcf.size())) != 0)
+    throw std::runtime_error("MuJoCo has no memory left for a world of " + std::to_string(mjcf.size()) + " bytes");
+  std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], mjcf.data(), mjcf.size());
+  std::array<char, 1000> wrong{};
+  Model made(mj_loadXML(name, files.get(), wrong.data(), static_cast<int>(wrong.size())));
+  mj_deleteVFS(files.get());
+  mj_freeLastXML();
+  set_handlers();  // the compiler's own may have taken their place
+  if (!made) throw std::runtime_error("MuJoCo refuses the world: " + std::string(wrong.data()));
+  return made;
+}
+
+Data data_of(const mjModel* model) {
+  Data made(mj_makeData(model));
+  if (!made) throw std::runtime_error("MuJoCo has no memory left for a world's state");
+  return made;
+}
+
+void at_work(void (*work)(void*), void* with) {
+  const std::shared_lock<std::shared_mutex> shared(compiling);
+  work(with);
+}
+
+}  // namespace muster::mujoco
