@@ -139,7 +139,7 @@ void Air::hear_piece(Time until) {
   double clean = 0;
   for (std::size_t i = 0; i < lock_.size(); ++i) {
     if (lock_[i] == nothing) continue;
-    if (lock_[i] != id) {
+    if (!format || lock_[i] != id) {
       id = lock_[i];
       format = &formats_[frame(id).format];
       bits = bits_of(frame(id), *format, from, until);

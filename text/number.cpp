@@ -59,7 +59,7 @@ bool is_unit(std::string_view text) {
 
 template <class Number>
 std::string why_not(std::string_view text, std::string_view kind) {
-  const std::string refusal = quote(text) + " is not " + std::string(kind);
+  std::string refusal = quote(text) + " is not " + std::string(kind);
   if (text.empty()) return refusal + "; the text is empty";
   if (text.find_first_of(white_space) != text.npos) return refusal + "; it has spaces in it or around it";
   if (text.find(',') != text.npos) return refusal + "; a decimal point is written '.'";

@@ -285,7 +285,7 @@ Touch touch(const Solid& a, const Solid& b, double margin) {
   if (least_gap(result, margin) <= axis.apart + face_lead) return result;
   // No face covers the nearest features.
   if (axis.apart > 0) {
-    const Touch corners = touch_corners(a, b, margin);
+    Touch corners = touch_corners(a, b, margin);
     if (corners.count == 0) return result;
     const Vector3d &n = corners.normal, d = a.centre - b.centre;
     const bool is_alone = result.count == 0 || n.dot(result.normal) < nearly_a_face;

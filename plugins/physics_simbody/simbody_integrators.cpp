@@ -82,7 +82,8 @@ struct SimbodyIntegrators::Robot {
     for (std::size_t w = 0; w < 2; ++w) {
       course[w].drive = &model.drive;
       SimTK::Motion::Custom(bodies.wheel[w], new WheelMotion(course[w]));
-      SimTK::Constraint::SphereOnPlaneContact(ground, floor, bodies.wheel[w], Vec3(0), model.drive.wheel_radius, true);
+      const SimTK::Constraint::SphereOnPlaneContact rolls(ground, floor, bodies.wheel[w], Vec3(0),
+                                                          model.drive.wheel_radius, true);
     }
     // A third support point: the lowest of its sliders.
     if (model.sliders.empty()) throw std::runtime_error("robot '" + name + "' would stand on two wheels only");
@@ -91,7 +92,7 @@ struct SimbodyIntegrators::Robot {
         [](const Slider& a, const Slider& b) { return a.centre.z() - a.radius < b.centre.z() - b.radius; });
     for (std::size_t i = 0; i < model.limbs.size(); ++i) hang(model.limbs[i], bodies.limbs[i]);
     const Vec3 centre(lowest->centre.x(), lowest->centre.y(), lowest->centre.z());
-    SimTK::Constraint::SphereOnPlaneContact(ground, floor, bodies.body, centre, lowest->radius, false);
+    const SimTK::Constraint::SphereOnPlaneContact slides(ground, floor, bodies.body, centre, lowest->radius, false);
     system.finish();
   }
 

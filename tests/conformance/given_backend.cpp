@@ -52,7 +52,7 @@ bool takes(const std::string& plugin, const std::string& robot) {
   const Folder folder;
   folder.write("world.xml", "<world dt='0.01' until='1' seed='1'>" + robot + "<" + plugin + "/></world>");
   try {
-    Simulation(read_world(folder.path(), standard()), standard(), search());
+    const Simulation accepted(read_world(folder.path(), standard()), standard(), search());
     return true;
   } catch (const Error&) {
     return false;

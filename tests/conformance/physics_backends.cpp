@@ -69,11 +69,15 @@ InstanceDeclaration instance(const Backend& backend, const Attributes& more) {
 // No steps shorter than the tick.
 Attributes whole_ticks(const Backend& backend) { return backend.has_step ? Attributes{{"step", "0.1"}} : Attributes{}; }
 
-static std::string print(const Attributes& attributes) {
+namespace {
+
+std::string print(const Attributes& attributes) {
   std::string text;
   for (const auto& [name, value] : attributes) text += ' ' + name + "='" + value + '\'';
   return text;
 }
+
+}  // namespace
 
 State state(const Simulation& run, const std::string& robot) {
   return {row<Pose>(run, "robot/" + robot + "/pose"), row<Twist>(run, "robot/" + robot + "/twist")};

@@ -28,8 +28,7 @@ class WorldText : public testing::Test {
       read(text);
     } catch (const Error& e) {
       EXPECT_EQ(e.exit(), Exit::invalid_input);
-      const std::string said = temporary.inside(e.what());
-      return said;
+      return temporary.inside(e.what());
     }
     return "no error";
   }

@@ -8,11 +8,11 @@ namespace muster::noise {
 namespace {
 
 #ifdef __AVX512F__
-constexpr int register_bytes = 64;
+inline constexpr int register_bytes = 64;
 #elif defined __AVX__
-constexpr int register_bytes = 32;
+inline constexpr int register_bytes = 32;
 #else
-constexpr int register_bytes = 16;
+inline constexpr int register_bytes = 16;
 #endif
 
 template <class Scalar>

@@ -74,7 +74,7 @@ MUSTER_INLINE Distances distances_of(const Places& p, long row, long first) {
 
 MUSTER_INLINE void write(const Floats& values, float* out) { *reinterpret_cast<Floats*>(out) = values; }
 
-void apart(const Places& p, long row, float* place, float* both) {
+inline void apart(const Places& p, long row, float* place, float* both) {
   for (long first = 0; first < row; first += many) {
     const Distances of = distances_of(p, row, first);
     write(of.place, place + first);
@@ -93,7 +93,7 @@ MUSTER_INLINE Floats correlations(const Pairs& p, Floats apart) {
   return apart;
 }
 
-void covariances(const Pairs& p, long row, double* out) {
+inline void covariances(const Pairs& p, long row, double* out) {
   for (long first = 0; first < row; first += many) {
     const Distances apart = distances_of(p.at, row, first);
     const Floats near = correlations(p, apart.place);

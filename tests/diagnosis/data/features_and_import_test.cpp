@@ -135,7 +135,7 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
   scratch.write("out.csv", "what was there before");
   const auto failing = [&](const std::string& rules) {
     const auto map = scratch.write("m.map", rules);
-    const std::string words = complaint([&] { import_table({file}, map, scratch / "out.csv"); });
+    std::string words = complaint([&] { import_table({file}, map, scratch / "out.csv"); });
     EXPECT_EQ(contents(scratch / "out.csv"), "what was there before");
     EXPECT_FALSE(std::filesystem::exists(scratch / "out.csv.part"));
     return words;

@@ -18,7 +18,7 @@ inline std::filesystem::path flat(const Scratch& scratch, int seed, const std::s
                                           "south,0,0,14,0,3,0.2,brick\nnorth,0,9,14,9,3,0.2,brick\n"
                                           "west,0,0,0,9,3,0.2,brick\neast,14,0,14,9,3,0.2,brick\n"
                                           "a,5,0,5,6,3,0.1,drywall\nb,5,5,11,5,3,0.1,drywall\n";
-  const std::filesystem::path world = scratch / "world.xml";
+  std::filesystem::path world = scratch / "world.xml";
   std::ofstream(world) << "<world name=\"flat\" dt=\"0.1\" until=\"1\" seed=\"" << seed << "\">\n"
                        << "<material name=\"drywall\" loss=\"4\"/><material name=\"brick\" loss=\"9\"/>\n"
                        << "<walls file=\"walls.csv\"/>\n"

@@ -35,7 +35,7 @@ uint16_t free_port() {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
   const int probe = ::socket(AF_INET, SOCK_STREAM, 0);
-  ::bind(probe, reinterpret_cast<sockaddr*>(&address), size);
+  EXPECT_EQ(::bind(probe, reinterpret_cast<sockaddr*>(&address), size), 0);
   ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
   ::close(probe);
   return ntohs(address.sin_port);
@@ -53,7 +53,7 @@ struct Driven {
 
 class Bridge : public testing::Test {
  protected:
-  Driven run(const std::string& attributes, std::vector<std::string> client) const {
+  Driven run(const std::string& attributes, const std::vector<std::string>& client) const {
     folder.write("world.xml", world("<bridge.socket name=\"driver\" " + attributes + ' ' + tables + "/>"));
     ClientProcess process(client);
     Driven result;

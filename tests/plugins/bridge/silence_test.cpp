@@ -129,7 +129,7 @@ std::string verdict(const std::string& bytes, bool joins = true) {
   std::thread other([&] {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, world.at().c_str());
+    world.at().copy(address.sun_path, sizeof address.sun_path - 1);
     const int connection = ::socket(AF_UNIX, SOCK_STREAM, 0);
     while (::connect(connection, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

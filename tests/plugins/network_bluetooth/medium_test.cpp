@@ -228,7 +228,8 @@ TEST(Loss, OfWhatIsSentOnceIsThatOfItsBits) {
     Piconet piconet(1);
     piconet.set_ratio(ratio);
     piconet.fill(0, Medium::everyone, dh3, frames);
-    const double bits = static_cast<double>((air_time(dh3, 183) - bare) / bit);
+    const auto whole = (air_time(dh3, 183) - bare) / bit;
+    const auto bits = static_cast<double>(whole);
     const double expected = std::pow(1 - header_error_rate(ratio), 18) * std::pow(1 - bit_error_rate(ratio), bits);
     const double got = of(books_of(piconet.run(60 * second)), DeliveryOutcome::delivered) / frames;
     EXPECT_NEAR(got, expected, 3 * std::sqrt(expected * (1 - expected) / frames) + 1e-3) << decibels;
@@ -261,7 +262,8 @@ TEST(Retransmission, CostsWhatTheLossOfPacketsAndAnswersSays) {
   piconet.fill(0, 1, dh5, 20000);
   const Report report = piconet.run(60 * second);
   const double heads = std::pow(1 - header_error_rate(ratio), 18);
-  const double bits = static_cast<double>((air_time(dh5, 339) - bare) / bit);
+  const auto whole = (air_time(dh5, 339) - bare) / bit;
+  const auto bits = static_cast<double>(whole);
   const double both = heads * std::pow(1 - bit_error_rate(ratio), bits) * heads;
   EXPECT_LT(both, 0.2);
   EXPECT_NEAR(rate(report, 0, 60), 723.2 * both, 723.2 * 3 * std::sqrt(both / 16000));
@@ -277,7 +279,8 @@ TEST(Flush, GivesUpAfterItsTime) {
   piconet.settings.flush = tries * 4 * slot;
   for (int i = 0; i < messages; ++i) piconet.medium.ask(i * (second / 40), 0, 1, std::string(183 - 4, 'x'));
   const Books books = books_of(piconet.run(messages * (second / 40)));
-  const double bits = static_cast<double>((air_time(dh3, 183) - bare) / bit);
+  const auto whole = (air_time(dh3, 183) - bare) / bit;
+  const auto bits = static_cast<double>(whole);
   const double lost = 1 - std::pow(1 - header_error_rate(ratio), 18) * std::pow(1 - bit_error_rate(ratio), bits);
   const double expected = std::pow(lost, tries);
   EXPECT_GT(expected, 0.2);

@@ -59,7 +59,8 @@ TEST(SteadyJammer, LeavesWhatTheBitErrorLawSays) {
   for (const double above : {9.5, 9.8, 10.1, 10.4, 11.0, 13.0, 16.0}) {  // the signal above the jammer, dB
     Jammed one(signal / milliwatts(above));
     const double ratio = signal / (signal / milliwatts(above) + noise);
-    const double bits = static_cast<double>((one.frame() - preamble - signal_field - extension) / symbol) * 96;
+    const auto symbols = (one.frame() - preamble - signal_field - extension) / symbol;
+    const double bits = 96.0 * static_cast<double>(symbols);
     const double expected = std::pow(1 - bit_error_rate(rates[0], ratio), 24) *
                             std::pow(1 - bit_error_rate(rates[rate_of(24)], ratio), bits);
     EXPECT_NEAR(one.share_of(frames, DeliveryOutcome::delivered), expected,

@@ -93,5 +93,6 @@ TEST_P(EveryWorld, IsTheSameInTwoProcesses) {
 }  // namespace
 
 // glibc keeps the path of LOCPATH that setlocale() has split, for good.
+// NOLINTNEXTLINE(bugprone-reserved-identifier): the name that the sanitizer looks for.
 extern "C" const char* __lsan_default_suppressions() { return "leak:argz_add_sep\n"; }
 }  // namespace muster::test

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 Outcome expect_clean(const std::vector<std::string>& words) {
-  const auto outcome = run_muster(words);
+  auto outcome = run_muster(words);
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   return outcome;
