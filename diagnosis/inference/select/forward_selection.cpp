@@ -207,6 +207,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   const bool place = !lead.candidate().role.pieces.empty();
   if (place && lead.log_p > thresholds::log_p_beyond_edges && state.end_rows_at(lead.candidate(), lead.theta) > 0)
     lead.columns = state.columns_of(lead.candidate(), lead.theta);
+  const std::size_t terms = state.terms.size();
   const Eigen::MatrixXd design = state.design();
   const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
   trials.push_back(tried(state, lead, fit, design));
@@ -216,6 +217,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
     if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
     return false;
   }
+  const double before = state.fit.value;
   take(state, fit,
        {lead.entry->candidate, lead.theta, lead.columns, trial.gain, lead.evidence, trial.marginal_log_p,
         trial.inflation});
@@ -229,6 +231,9 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   if (merge_pieces(state, pieces)) {
     state.refit();
     relocate_places(state);
+    // What was merged away and left the model as it was would be found again.
+    if (state.terms.size() <= terms && state.fit.value > before - thresholds::keep_term_nats)
+      blocked.now.insert(trial.id);
   }
   settle_at_their_edges(state);
   return true;

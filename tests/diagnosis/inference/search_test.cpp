@@ -88,6 +88,23 @@ TEST(Search, TwoCausesAreBothNamed) {
   EXPECT_EQ(found, (std::vector<std::string>{"rx_offset", "unmapped_wall"}));
 }
 
+// A second wall of a thirtieth of the first one's evidence is merged away: one object explains nearly all. It is not
+// found and merged again without end.
+TEST(Search, AWallThatIsMergedAwayIsNotFoundAgainAndAgain) {
+  const World world = world_of(varied(12, 4000));
+  const auto causes = causes_of(world);
+  const Candidate& wall = causes[causes.size() - 2];
+  ASSERT_EQ(wall.id, "unmapped_wall");
+  const Eigen::VectorXd effect = -scaled_to(world, wall.design.columns(Eigen::Vector4d(6, 5, 4, 0)), 3000) -
+                                 scaled_to(world, wall.design.columns(Eigen::Vector4d(9, 6, 3, 0.6)), 100);
+  const auto result = result_of(world, effect);
+  const auto entered =
+      std::count_if(result.trials.begin(), result.trials.end(), [](const Trial& t) { return t.accepted; });
+  EXPECT_GE(entered, 2);
+  EXPECT_LE(entered, 4);
+  EXPECT_EQ(ids(result), std::vector<std::string>{"unmapped_wall"});
+}
+
 // A steeper slope beyond some distance concerns every radio and every run, an offset one radio alone.
 TEST(Search, EffectsOnAllRadiosAndRunsGainOnHeldOutOnes) {
   const World world = world_of(varied(34, 5000));
