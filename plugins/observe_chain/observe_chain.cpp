@@ -31,7 +31,6 @@ struct ObserveChain {
   struct Seen {
     double level, rssi, smooth, distance, walls, below, worst;
   };
-  static constexpr std::size_t width = sizeof(Seen) / sizeof(double);
 
   struct Part {
     static constexpr const char* columns = "level[dBm]";

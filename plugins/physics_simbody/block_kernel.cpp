@@ -134,6 +134,7 @@ struct Arithmetic {
       for (int j = 0; j < some; ++j) sums[j] = C::of(block + N * (first + j));
       for (int row = 0; row < 3 * count; ++row) {
         const C of_a = C::of(a[row / 3] + N * (row % 3));
+        // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): rows are those that were weighed above
         for (int j = 0; j < some; ++j) sums[j].add(of_a, weighed[N * row + first + j]);
       }
       for (int j = 0; j < some; ++j) sums[j].store(block + N * (first + j));

@@ -130,13 +130,14 @@ void Router::take_requests(const Step& k, Protocol& protocol) {
     } else {
       journey.receivers = medium::Receivers(std::size_t{packet.target});
     }
-    asked_[packet.origin] += static_cast<double>(journey.receivers.count());
+    const Radio from = packet.origin;
+    asked_[from] += static_cast<double>(journey.receivers.count());
     if (!alive_[packet.origin])
       end(packet, Outcome::gone);
     else if (packet.target == packet.origin)
       end(packet, Outcome::no_route);
     else if (packet.target == everyone || alive_[packet.target])
-      protocol.originate(*this, packet.origin, std::move(packet));
+      protocol.originate(*this, from, std::move(packet));
   }
 }
 
