@@ -88,7 +88,7 @@ Outcome run_on_terminal(const ProgramFolder& folder, const std::vector<std::stri
   Surroundings around;
   around.terminal = true;
   around.environment = environment;
-  const auto outcome = folder.muster({"run", "world.xml", "--plugins", toys, "--until", "200"}, around);
+  auto outcome = folder.muster({"run", "world.xml", "--plugins", toys, "--until", "200"}, around);
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   return outcome;
 }

@@ -14,7 +14,7 @@ std::string warnings_of(const std::string& elements) {
   folder.write("world.xml", world_of("\n" + elements + "\n"));
   const auto outcome = folder.muster({"check", "world.xml"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  const std::string warnings = outcome.out.substr(0, outcome.out.rfind("w: "));
+  std::string warnings = outcome.out.substr(0, outcome.out.rfind("w: "));
   const std::string run = folder.muster({"run", "world.xml"}).out;
   for (std::size_t from = 0, to = 0; (to = warnings.find('\n', from)) != warnings.npos; from = to + 1)
     EXPECT_THAT(run, testing::HasSubstr(warnings.substr(from, to - from)));
