@@ -93,7 +93,7 @@ inline constexpr double least_step = 0.2;
 // rad; between two headings of a radio that count; chosen; none
 inline constexpr double least_turn = 0.2;
 // share; of a radio's readings, of those that it sends and of those that it receives, from which it does both; chosen;
-// CauseRows.*
+// CauseRows.SendingIsToldFromReceivingWhereARadioDoesBoth
 inline constexpr double both_ends_share = 0.05;
 // m; beyond which a step is no way that was driven; chosen; none
 inline constexpr double longest_step = 2;

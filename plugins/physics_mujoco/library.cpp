@@ -1,7 +1,9 @@
 #include "library.hpp"
 
 #include <array>
+#include <clocale>
 #include <cstring>
+#include <locale>
 #include <mutex>
 #include <shared_mutex>
 #include <stdexcept>
@@ -26,6 +28,27 @@ void count(const char* message) {
   if (!counted) return;
   if (counted->count++ == 0) counted->first = message;
 }
+
+// MuJoCo reads numbers with streams of the program's locale, whose decimal point may be a comma. While this lives it is
+// the classic one; nothing is touched where it is so anyway.
+class ClassicLocale {
+ public:
+  ClassicLocale() : own_(std::locale()), of_c_(std::setlocale(LC_ALL, nullptr)) {
+    if (is_other_) std::locale::global(std::locale::classic());
+  }
+  ~ClassicLocale() {
+    if (!is_other_) return;
+    std::locale::global(own_);
+    std::setlocale(LC_ALL, of_c_.c_str());
+  }
+  ClassicLocale(const ClassicLocale&) = delete;
+  ClassicLocale& operator=(const ClassicLocale&) = delete;
+
+ private:
+  std::locale own_;
+  std::string of_c_;
+  bool is_other_ = own_ != std::locale::classic();
+};
 
 void set_handlers() {
   mju_user_error = fail;
@@ -59,6 +82,7 @@ Model compile(const std::string& mjcf) {
     throw std::runtime_error("MuJoCo has no memory left for a world of " + std::to_string(mjcf.size()) + " bytes");
   std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], mjcf.data(), mjcf.size());
   std::array<char, 1000> wrong{};
+  const ClassicLocale classic;
   Model made(mj_loadXML(name, files.get(), wrong.data(), static_cast<int>(wrong.size())));
   mj_deleteVFS(files.get());
   mj_freeLastXML();
