@@ -5,7 +5,6 @@ namespace muster {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsSupersetOf;
 using Rows = ToyWorld;
 
 const std::string level = " columns='level[dBm]' ";

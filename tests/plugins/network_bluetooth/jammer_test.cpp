@@ -83,7 +83,8 @@ TEST(SteadyJammer, LeavesWhatTheBitErrorLawSays) {
   double least = 1, most = 0;
   for (const double above : {10.0, 11.0, 12.0, 13.0, 14.0, 16.0}) {  // the signal above the jammer, dB
     const double power = signal / medium::milliwatts(above), ratio = signal / (power + noise);
-    const double bits = static_cast<double>((air_time(dh3, types[dh3].payload) - bare) / bit);
+    const auto whole = (air_time(dh3, types[dh3].payload) - bare) / bit;
+    const auto bits = static_cast<double>(whole);
     const double expected = std::pow(1 - header_error_rate(ratio), 18) * std::pow(1 - bit_error_rate(ratio), bits);
     Jammed one(power, channels);
     EXPECT_NEAR(one.share(messages), expected, 3 * std::sqrt(expected * (1 - expected) / messages) + 1e-3) << above;

@@ -57,7 +57,8 @@ TEST(SteadyJammer, LeavesWhatTheBitErrorLawSays) {
   double least = 1, most = 0;
   for (const double above : {-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 6.0}) {  // the signal above the jammer, dB
     const double power = signal / milliwatts(above);
-    const double expected = std::pow(1 - bit_error_rate(signal / (power + 1e-11)), static_cast<double>(frame / bit));
+    const auto bits = frame / bit;
+    const double expected = std::pow(1 - bit_error_rate(signal / (power + 1e-11)), static_cast<double>(bits));
     const double three_sigma = 3 * std::sqrt(expected * (1 - expected) / frames) + 1e-3;
     Jammed one(power);
     EXPECT_NEAR(one.share_of(frames, DeliveryOutcome::delivered), expected, three_sigma) << above;
@@ -132,7 +133,8 @@ TEST(Pulses, ShorterThanAFrameTakeTheirShareOfItsBits) {
   constexpr int frames = 3000;
   const double power = signal / milliwatts(-1.5);
   Jammed one(power, {bit * 8, bit * 4, 0});
-  const double bits = static_cast<double>(frame / bit) / 2;
+  const auto whole = frame / bit;
+  const double bits = static_cast<double>(whole) / 2;
   const double expected = std::pow(1 - bit_error_rate(signal / (power + 1e-11)), bits);
   EXPECT_NEAR(one.share_of(frames, DeliveryOutcome::delivered), expected,
               3 * std::sqrt(expected * (1 - expected) / frames));
