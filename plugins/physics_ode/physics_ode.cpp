@@ -1,20 +1,13 @@
 // physics.ode: ODE on the blackboard.
-#include <algorithm>
-#include <cstring>
-#include <muster/ground_drives.hpp>
 #include <muster/plugin.hpp>
 #include <optional>
 
-#include "description/starts.hpp"
-#include "description/world_robots.hpp"
-#include "plugins/scene_rows.hpp"
+#include "plugins/rigid_backend.hpp"
 #include "world.hpp"
 
 namespace {
 
 using namespace muster;
-using description::Model;
-using description::WorldRobots;
 
 // State of the wheels in ODE, see ode::HungBody: the left one, then the right one.
 struct Hinged {
@@ -34,11 +27,6 @@ struct Hung {
       "x3[m] y3[m] z3[m] qw3 qx3 qy3 qz3 vx3[m/s] vy3[m/s] vz3[m/s] wx3[rad/s] wy3[rad/s] wz3[rad/s] "
       "x4[m] y4[m] z4[m] qw4 qx4 qy4 qz4 vx4[m/s] vy4[m/s] vz4[m/s] wx4[rad/s] wy4[rad/s] wz4[rad/s]";
   std::array<ode::HungBody, Limbs::most> limb;
-};
-
-struct Complained {
-  static constexpr const char* columns = "count";
-  double count;
 };
 
 struct PhysicsOde {
@@ -83,221 +71,47 @@ struct PhysicsOde {
         friction(s.value("friction")),
         obstacles(s.value("obstacles")),
         shuffle(s.stream("ode_quickstep")),
-        robots(s, description::Meshes::import),
-        flies(robots.any_quadrotor()),
-        drive(s.read<Drive>("robot/*/drive")),
-        walls(s.read<Wall>("wall/*/shape")),
-        doors(s.read<Door>("door/*/shape")),
-        door_states(s.read<DoorState>("door/*/state")),
-        pose(s.write<Pose>("robot/*/pose")),
-        twist(s.write<Twist>("robot/*/twist")),
-        wheels(s.write<Wheels>("robot/*/wheels")),
-        model(s.write<Model>("robot/*/body")),
-        hinged(s.write<Hinged>("robot/*/hinged")),
-        complained(s.write<Complained>("self/complaints")) {
-    robots.require(abilities, s);
-    if (robots.any_has_limbs()) {
-      limbs = s.write<Limbs>("robot/*/limbs");
-      hung = s.write<Hung>("robot/*/hung");
-    }
-    if (robots.any_steers()) steering = s.read_if_any<SteeringAngle>("robot/*/steering");
-    if (robots.any_mecanum()) {
-      rear_drive = s.read_if_any<Drive>("robot/*/rear_drive");
-      rear_wheels = s.write<Wheels>("robot/*/rear_wheels");
-      rear_hinged = s.write<Hinged>("robot/*/rear_hinged");
-    }
-    if (flies) {
-      rotor_drive = s.read<RotorDrive>("robot/*/rotor_drive");
-      rotors = s.write<Rotors>("robot/*/rotors");
-    }
-    for (std::size_t row = 0; row < robots.size(); ++row) {
-      made.rows.push_back(row);
-      made.models.push_back(WorldRobots::model_of(0, row));
-    }
-    make([&](std::size_t row) { return s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(row)); });
+        backend(s, abilities),
+        hinged(s.write<Hinged>("robot/*/hinged")) {
+    if (backend.robots().any_has_limbs()) hung = s.write<Hung>("robot/*/hung");
+    if (backend.robots().any_mecanum()) rear_hinged = s.write<Hinged>("robot/*/rear_hinged");
   }
 
-  // Inputs from which the engine is built. Parameters come with the first step.
-  struct Made {
-    ode::Settings settings;
-    std::vector<std::size_t> rows;
-    std::vector<double> models;
-    bool operator==(const Made& b) const { return settings == b.settings && rows == b.rows && models == b.models; }
-  };
+  void step(const Step& k) {
+    for (std::size_t i = 0; i < backend.rows(k); ++i) {  // robots that left keep their state
+      k[hinged][i] = k.last(hinged)[i];
+      if (rear_hinged) k[*rear_hinged][i] = k.last(*rear_hinged)[i];
+      if (hung) k[*hung][i] = k.last(*hung)[i];
+    }
+    const auto advance = [&](ode::World& world, const auto& commands, auto& states) {
+      const auto seed = static_cast<unsigned long>(shuffle.uniform(k.tick()) * 0x1p32);
+      backend.complain(k, world.step(k.dt(), commands, states, seed),
+                       "ODE complains of a step; self/complaints counts how often it does");
+    };
+    const auto read = [&](std::size_t row, ode::RobotState& s) {
+      s.hinged = k.last(hinged)[row].wheel;
+      if (rear_hinged) s.rear_hinged = k.last(*rear_hinged)[row].wheel;
+      if (hung) s.hung = k.last(*hung)[row].limb;
+    };
+    const auto write = [&](std::size_t row, const ode::RobotState& s) {
+      k[hinged][row].wheel = s.hinged;
+      if (rear_hinged) k[*rear_hinged][row].wheel = s.rear_hinged;
+      if (hung) k[*hung][row].limb = s.hung;
+    };
+    backend.step(k, settings(k), advance, read, write);
+  }
 
   ode::Settings settings(const Step& k) const {
     return {k[step_size], k[solver] != 0,   static_cast<int>(k[iterations]), k[over_relaxation], k[erp], k[cfm],
             k[friction],  k[obstacles] != 0};
   }
 
-  template <class NameOf>
-  void make(NameOf name_of) {
-    std::vector<ode::NamedRobot> named;
-    for (std::size_t i = 0; i < made.rows.size(); ++i) {
-      const std::string name(name_of(made.rows[i]));
-      const description::Robot* robot = robots.of(made.models[i]);
-      if (!robot) throw BadInput("robot '" + name + "' has no model; expected the attribute model in the world file");
-      named.push_back({name, robot});
-    }
-    try {
-      world = std::make_unique<ode::World>(named, made.settings);
-    } catch (const std::runtime_error& wrong) {
-      throw BadInput(wrong.what());
-    }
-    known_walls.clear();
-  }
-
-  void step(const Step& k) {
-    Made now{settings(k), {}, {}};
-    for (std::size_t i = 0; i < k[pose].size(); ++i) {
-      k[pose][i] = k.last(pose)[i];  // robots that left keep their state
-      k[twist][i] = k.last(twist)[i];
-      k[wheels][i] = k.last(wheels)[i];
-      k[hinged][i] = k.last(hinged)[i];
-      if (flies) k[rotors][i] = k.last(rotors)[i];
-      if (rear_wheels) k[*rear_wheels][i] = k.last(*rear_wheels)[i], k[*rear_hinged][i] = k.last(*rear_hinged)[i];
-      if (limbs) k[*limbs][i] = k.last(*limbs)[i], k[*hung][i] = k.last(*hung)[i];
-      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
-      if (!k.alive("robot", i)) continue;
-      now.rows.push_back(i);
-      now.models.push_back(k[model][i].model);
-    }
-    if (!(now == made)) {
-      made = now;
-      make([&](std::size_t row) { return k.name("robot", row); });
-    }
-    stand_walls(k);
-    if (k.tick() == first_tick && made.settings.obstacles) warn_of_starts(k);
-    move(k);
-  }
-
-  static constexpr uint64_t first_tick = 1;
-
-  void warn_of_starts(const Step& k) const {
-    std::vector<description::starts::Block> blocks;
-    for (const scene::Slab& slab : scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls])))
-      blocks.push_back(description::starts::block_of(slab));
-    for (const auto& fault : description::starts::faults(
-             k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
-             [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
-             [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
-      k.warn("robot/" + std::string(k.name("robot", fault.robot)), fault.message);
-  }
-
-  // Walls with the doors' states of this tick.
-  void stand_walls(const Step& k) {
-    std::vector<double> now{1};  // never empty: none are known yet
-    const auto append = [&](const auto rows) {
-      const std::size_t from = now.size(), count = rows.size() * sizeof(*rows.begin()) / sizeof(double);
-      now.resize(from + count);
-      if (count) std::memcpy(now.data() + from, rows.begin(), count * sizeof(double));
-    };
-    append(k[walls]), append(k[doors]), append(k[door_states]);
-    const bool same = now.size() == known_walls.size() &&
-                      std::memcmp(now.data(), known_walls.data(), now.size() * sizeof(double)) == 0;  // some are NaN
-    if (same) return;
-    world->set_walls(scene::slabs(scene_walls(k[walls]), scene_doors(k[doors], k[door_states], k[walls])));
-    known_walls = now;
-  }
-
-  void move(const Step& k) {
-    const auto asked = k[drive];
-    states.resize(made.rows.size());
-    commands.assign(made.rows.size(), {});
-    for (std::size_t i = 0; i < made.rows.size(); ++i) {
-      const std::size_t row = made.rows[i];
-      states[i] = gather(k, row);
-      if (row < asked.size()) {
-        commands[i] = {asked[row].left, asked[row].right, asked[row].left_rate, asked[row].right_rate};
-      }
-      if (rear_drive && row < k[*rear_drive].size()) {
-        const Drive& rear = k[*rear_drive][row];
-        commands[i].rear = {rear.left, rear.right}, commands[i].rear_rate = {rear.left_rate, rear.right_rate};
-      }
-      if (steering && row < k[*steering].size()) {
-        const SteeringAngle& now_steered = k[*steering][row];
-        commands[i].steering = now_steered.angle, commands[i].steering_rate = now_steered.rate;
-      }
-      if (flies && row < k[rotor_drive].size()) {
-        const RotorDrive& r = k[rotor_drive][row];
-        commands[i].rotors = {r.front, r.left, r.back, r.right};
-      }
-    }
-    const auto seed = static_cast<unsigned long>(shuffle.uniform(k.tick()) * 0x1p32);
-    report(k, world->step(k.dt(), commands, states, seed));
-    for (std::size_t i = 0; i < made.rows.size(); ++i) spread(k, made.rows[i], states[i]);
-  }
-
-  void report(const Step& k, int complaints) const {
-    const double before = k.last(complained)->count;
-    k[complained]->count = before + complaints;
-    if (before == 0 && complaints > 0) k.event("ODE complains of a step; self/complaints counts how often it does");
-  }
-
-  ode::RobotState gather(const Step& k, std::size_t row) const {
-    const Pose& p = k.last(pose)[row];
-    const Twist& t = k.last(twist)[row];
-    const Wheels& w = k.last(wheels)[row];
-    ode::RobotState s{{p.x, p.y, p.z, p.qw, p.qx, p.qy, p.qz},
-                      {t.vx, t.vy, t.vz, t.wx, t.wy, t.wz},
-                      {w.left, w.right},
-                      {w.left_rate, w.right_rate},
-                      k.last(hinged)[row].wheel};
-    if (limbs) s.limbs = k.last(*limbs)[row], s.hung = k.last(*hung)[row].limb;
-    if (rear_wheels) {
-      const Wheels& rear = k.last(*rear_wheels)[row];
-      s.rear_angle = {rear.left, rear.right}, s.rear_rate = {rear.left_rate, rear.right_rate};
-      s.rear_hinged = k.last(*rear_hinged)[row].wheel;
-    }
-    if (flies) {
-      const Rotors& r = k.last(rotors)[row];
-      s.rotors = {r.front, r.left, r.back, r.right};
-    }
-    return s;
-  }
-
-  void spread(const Step& k, std::size_t row, const ode::RobotState& s) const {
-    const auto& p = s.pose;
-    const auto& t = s.twist;
-    k[pose][row] = {p[0], p[1], p[2], p[3], p[4], p[5], p[6]};
-    k[twist][row] = {t[0], t[1], t[2], t[3], t[4], t[5]};
-    k[wheels][row] = {s.angle[0], s.angle[1], s.rate[0], s.rate[1]};
-    k[hinged][row].wheel = s.hinged;
-    if (rear_wheels) {
-      k[*rear_wheels][row] = {s.rear_angle[0], s.rear_angle[1], s.rear_rate[0], s.rear_rate[1]};
-      k[*rear_hinged][row].wheel = s.rear_hinged;
-    }
-    if (limbs) k[*limbs][row] = s.limbs, k[*hung][row].limb = s.hung;
-    if (flies) k[rotors][row] = {s.rotors[0], s.rotors[1], s.rotors[2], s.rotors[3]};
-  }
-
   Value step_size, solver, iterations, over_relaxation, erp, cfm, friction, obstacles;
   Stream shuffle;
-  WorldRobots robots;
-  bool flies;  // some robots have rotors; otherwise their tables are not claimed
-  In<Drive> drive;
-  In<RotorDrive> rotor_drive{};
-  In<Wall> walls;
-  In<Door> doors;
-  In<DoorState> door_states;
-  Out<Pose> pose;
-  Out<Twist> twist;
-  Out<Wheels> wheels;
-  Out<Rotors> rotors{};
-  Out<Model> model;
+  rigid::Backend<ode::World, ode::Settings, ode::RobotState> backend;
   Out<Hinged> hinged;
-  std::optional<Out<Limbs>> limbs;  // where a robot has any
-  std::optional<Out<Hung>> hung;
-  std::optional<In<SteeringAngle>> steering;  // where a robot has any
-  std::optional<In<Drive>> rear_drive;        // where a robot has rollers
-  std::optional<Out<Wheels>> rear_wheels;
-  std::optional<Out<Hinged>> rear_hinged;
-  Out<Complained> complained;
-  Made made;
-  std::unique_ptr<ode::World> world;
-  std::vector<double> known_walls;      // and doors, that stand in `world`
-  std::vector<ode::RobotState> states;  // buffer, kept from step to step
-  std::vector<ode::Command> commands;
+  std::optional<Out<Hung>> hung;           // where a robot has limbs
+  std::optional<Out<Hinged>> rear_hinged;  // where a robot has rollers
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "library.hpp"
 #include "limbs.hpp"
 #include "model.hpp"
+#include "plugins/rigid_states.hpp"
 #include "scene/slabs.hpp"
 
 namespace muster::ode {
@@ -35,32 +36,13 @@ struct Settings {
   }
 };
 
-// Commanded wheel rates at the tick's start, and their slopes over the tick; rotors' rates held over it.
-struct Command {
-  double left, right;                         // [rad/s]
-  double left_rate, right_rate;               // [rad/s2]
-  std::array<double, 4> rotors{};             // front, left, back, right [rad/s]
-  std::array<double, 2> rear{}, rear_rate{};  // wheels of a mecanum drive [rad/s], [rad/s2]
-  double steering = 0, steering_rate = 0;     // of a car [rad], [rad/s]
-};
+using rigid::Command;
+using rigid::NamedRobot;
 
-struct RobotState {
-  std::array<double, 7> pose;      // x y z [m], qw qx qy qz, body to world
-  std::array<double, 6> twist;     // v [m/s] of the body's origin, w [rad/s]; both in the world's frame
-  std::array<double, 2> angle;     // of the wheels, left and right [rad]
-  std::array<double, 2> rate;      // [rad/s]
-  std::array<HungBody, 2> hinged;  // of the first wheel of each side; the others are set by their hinges in each tick
-  std::array<double, 4> rotors{};  // present rates [rad/s]
-  Limbs limbs{};                   // present states
+struct RobotState : rigid::RobotState {
+  std::array<HungBody, 2> hinged{};  // of the first wheel of each side; the others are set by their hinges in each tick
   std::array<HungBody, Limbs::most> hung{};
-  // Of the rear wheels of a mecanum drive.
-  std::array<double, 2> rear_angle{}, rear_rate{};
-  std::array<HungBody, 2> rear_hinged{};
-};
-
-struct NamedRobot {
-  std::string name;
-  const description::Robot* description;
+  std::array<HungBody, 2> rear_hinged{};  // of the rear wheels of a mecanum drive
 };
 
 class World {

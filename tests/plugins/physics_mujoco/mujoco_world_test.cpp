@@ -58,7 +58,7 @@ TEST(MujocoWorld, DoorsLetThroughWhileTheyAreOpen) {
     EXPECT_NEAR(run.pose("a").x, state == "open" ? 1.8 : 0.95 - front, 0.02) << state;
   }
   const Folder folder;
-  Forwards run(folder, door + "open'/><test.mujoco_doors at='0.5'/>");  // in front of the robot
+  Forwards run(folder, door + "open'/><test.shut_doors at='0.5'/>");  // in front of the robot
   run.run_to(600);
   EXPECT_NEAR(run.pose("a").x, 0.95 - front, 2e-3);
 }
@@ -93,7 +93,7 @@ TEST(MujocoWorld, RemadeAmongContactsItGivesTheSameBits) {
 // They compile worlds anew while others step, for doors shut at different times of the clock.
 TEST(MujocoWorld, RunsSideBySideChangeNothing) {
   const std::string two = scarab + wall + "<door name='d' wall='w' at='1.5' width='1' state='open'/>" +
-                          "<test.mujoco_doors at='0.3'/><robot name='b' at='0.5 0.5 0' heading='-1'/>";
+                          "<test.shut_doors at='0.3'/><robot name='b' at='0.5 0.5 0' heading='-1'/>";
   const Folder folder;
   std::vector<std::unique_ptr<Forwards>> runs;
   runs.reserve(5);
