@@ -169,7 +169,7 @@ enum {
 };
 /* Flags of causes. A cause whose `size` ends before its flags has MUSTER_FIRST as a world edit and an instrument. */
 enum {
-  MUSTER_FIRST = 1u,    /* where it is found beside others, they are judged again in a world that has it */
+  MUSTER_FIRST = 1u,     /* where it is found beside others, they are judged again in a world that has it */
   MUSTER_OWN_WORLD = 2u, /* it bends all that is fitted without it: it is no term beside others, but judged in a world
                             that has it, with parameters and noise fitted there */
   MUSTER_BOTH_ENDS = 4u  /* it tells what a radio sends from what it receives: tested for radios that do both in the
