@@ -29,9 +29,15 @@ std::string plain(double value, int decimals) {
   return zero && text[0] == '-' ? text.substr(1) : text;
 }
 
+// What stands in a sentence for `slot`: "offset", or "offset|too high|too low", of which one is said by the sign.
 std::string slot_value(const CauseEstimate& cause, const std::string& slot) {
-  for (const CauseValue& v : cause.values) {
-    if (v.name == slot) return quantity(v);
+  const auto bar = slot.find('|'), next = slot.find('|', bar + 1);
+  for (CauseValue v : cause.values) {
+    if (v.name != slot.substr(0, bar)) continue;
+    if (bar == slot.npos) return quantity(v);
+    const bool less = v.value < 0;
+    v.value = std::abs(v.value);
+    return quantity(v) + ' ' + (less ? slot.substr(next + 1) : slot.substr(bar + 1, next - bar - 1));
   }
   if (const auto other = cause.words.find(slot); other != cause.words.end()) return other->second;
   return cause.row.empty() ? "all radios" : cause.row;

@@ -23,7 +23,7 @@ struct Asymmetry {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "the radio {radio} is heard {loss} better than it hears",
+      "the radio {radio} is heard {loss|better|worse} than it hears",
       "radio",
       "",
       "effect.tx_offset effect.rx_offset",

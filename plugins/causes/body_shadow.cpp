@@ -23,7 +23,7 @@ struct BodyShadow {
            "of its middle, from the radio's heading to its left")
           .free()
           .with(MUSTER_CYCLIC),
-      real("width", 1, 0.2, 1.4, "rad",
+      real("width", 1, 0.2, 2.2, "rad",
            "of the sector in which at least half is lost; a wider one is an antenna's pattern")
           .free()
           .with(MUSTER_LOG),

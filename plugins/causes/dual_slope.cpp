@@ -23,7 +23,7 @@ struct DualSlope {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "beyond {break} the path-loss exponent is higher by {n_change}",
+      "beyond {break} the path-loss exponent is {n_change|higher|lower}",
       "",
       "",
       "effect.corridor effect.two_ray effect.multiwall_saturation effect.incidence effect.rssi_floor",

@@ -19,7 +19,7 @@ struct RxOffset {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "the radio {radio} reads {offset} too high",
+      "the radio {radio} reads {offset|too high|too low}",
       "radio",
       "",
       "effect.antenna_rx effect.asymmetry effect.drift effect.step",

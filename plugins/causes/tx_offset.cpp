@@ -19,7 +19,7 @@ struct TxOffset {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "the radio {radio} sends {offset} more than the world says",
+      "the radio {radio} sends {offset|more|less} than the world says",
       "radio",
       "",
       "effect.antenna_tx effect.room_clutter effect.asymmetry effect.obstacle effect.unmapped_wall",

@@ -22,7 +22,7 @@ struct WallMaterial {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "the wall {wall} loses {change} more than its material says",
+      "the wall {wall} loses {change|more|less} than its material says",
       "wall",
       places_in_plan,
       "effect.wall_absent effect.unmapped_wall effect.obstacle effect.room_clutter",

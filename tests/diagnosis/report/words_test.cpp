@@ -46,6 +46,18 @@ TEST(Digits, FollowTheInterval) {
   EXPECT_EQ(interval({"x", "m", 1, 0, 1, 1, -9, 9}), "no interval");
 }
 
+TEST(Sentence, SaysTheSizeAndOneOfTwoWordsByTheSign) {
+  CauseEstimate c;
+  c.title = "the radio {radio} reads {offset|too high|too low}";
+  c.row = "ap2";
+  c.values = {{"offset", "dB", -11.27, 0.5, -12.3, -10.1, -60, 60}};
+  EXPECT_EQ(sentence(c), "the radio ap2 reads 11.3 dB too low");
+  c.values[0].value = 4;
+  EXPECT_EQ(sentence(c), "the radio ap2 reads 4.0 dB too high");
+  c.title = "jumps by {offset}";
+  EXPECT_EQ(sentence(c), "jumps by 4.0 dB");
+}
+
 TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
   const CauseEstimate sure = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   EXPECT_EQ(confidence_of(sure), Confidence::confirmed);

@@ -12,7 +12,7 @@ struct Offset {
                                      real("offset", 0, -20, 20, "K", "too high").free().with(MUSTER_LINEAR)};
   static constexpr muster_cause cause = {sizeof(muster_cause),
                                          MUSTER_TERM,
-                                         "{thermometer} reads {offset} too high",
+                                         "{thermometer} reads {offset|too high|too low}",
                                          "thermometer",
                                          "",
                                          "cause.step",
