@@ -100,7 +100,7 @@ std::function<Eigen::MatrixXd(const VectorXd&)> columns_at(const std::shared_ptr
     const auto row = static_cast<std::size_t>(t[0]);
     for (Index j = 0; j < result.cols(); ++j) {
       if (!shape->wave.empty()) parameters[shape->wave] = j ? quarter_turn : 0;
-      if (shape->linear.size() > 1) shape->set_one(static_cast<std::size_t>(j), parameters);
+      if (shape->one_of_several()) shape->set_one(static_cast<std::size_t>(j), parameters);
       run->fill(shape->cause, shape->rows, row, parameters, used, result.col(j));
     }
     return result;

@@ -37,6 +37,8 @@ struct CauseShape {
   std::string wave;                    // the cyclic parameter represented by two quadrature columns; may be empty
 
   std::map<std::string, double> parameters(const Eigen::VectorXd& theta) const;
+  // True if the cause declares several strengths, be it that the data show only one of them.
+  bool one_of_several() const { return !linear.empty() && cause.linear().size() > 1; }
   // Sets one strength to 1 and all others to 0.
   void set_one(std::size_t one, std::map<std::string, double>& parameters) const;
   const CauseRow& row(const Eigen::VectorXd& theta) const { return rows[static_cast<std::size_t>(theta[0])]; }

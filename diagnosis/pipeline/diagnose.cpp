@@ -265,10 +265,11 @@ class Diagnoser {
     }
     const auto values = std::find_if(setup_.data.covariates.begin(), setup_.data.covariates.end(),
                                      [&](const Covariate& c) { return c.name.substr(0, c.name.find('[')) == column; });
-    std::string text = "t[s],tx,rx," + values->name + '\n';
+    const bool timed = !setup_.data.t.empty();
+    std::string text = (timed ? "t[s],tx,rx," : "tx,rx,") + values->name + '\n';
     for (std::size_t row = 0; row < setup_.data.rows(); ++row)
-      text += print_real(setup_.data.t[row]) + ',' + setup_.data.tx.levels[setup_.data.tx.level[row]] + ',' +
-              setup_.data.rx.levels[setup_.data.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
+      text += (timed ? print_real(setup_.data.t[row]) + ',' : "") + setup_.data.tx.levels[setup_.data.tx.level[row]] +
+              ',' + setup_.data.rx.levels[setup_.data.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
     found.files[file->name] = text;
   }
 

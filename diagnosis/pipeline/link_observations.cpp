@@ -1,5 +1,6 @@
 #include "diagnosis/pipeline/link_observations.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -86,6 +87,18 @@ ObservedColumns observed_columns(const Dataset& data, const std::vector<Index>& 
     out.columns.factors.push_back(std::move(factor));
   }
   return out;
+}
+
+std::vector<int> settings_of(const ObservedColumns& observed) {
+  std::vector<int> settings;
+  for (const inference::Factor& factor : observed.columns.factors) {
+    if (factor.name == "run") continue;
+    const int levels = *std::max_element(factor.level.begin(), factor.level.end()) + 1;
+    if (levels > static_cast<int>(thresholds::most_settings)) continue;
+    settings.resize(factor.level.size());
+    for (std::size_t i = 0; i < settings.size(); ++i) settings[i] = settings[i] * levels + factor.level[i];
+  }
+  return settings;
 }
 
 }  // namespace muster::diagnosis

@@ -28,5 +28,8 @@ ObservedLevels observed_levels(const Dataset& data, const ReceiverChecks& receiv
                                const std::vector<Eigen::Index>& used);
 // The column `run`, and numbers of few distinct values (settings), become factors.
 ObservedColumns observed_columns(const Dataset& data, const std::vector<Eigen::Index>& used);
+// Of each reading which of the settings it was made with, numbers and words of few distinct values together, from 0;
+// empty if there are none. Readings of different settings are no repeats of one another.
+std::vector<int> settings_of(const ObservedColumns& observed);
 
 }  // namespace muster::diagnosis

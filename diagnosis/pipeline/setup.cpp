@@ -98,6 +98,7 @@ LinkReadings with_twins(LinkReadings readings, const ObservedLevels& levels) {
 
 LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, bool places_known,
                      const LinkModel& model) {
+  readings.setting = settings_of(observed);
   LinkRowLimits limits = limits_for(readings);
   if (!places_known) limits.way = -1;  // equal distances are not one place: each reading is a row
   return {std::move(readings), limits, observed.run, places_known, places_known ? drawn_correlation(model) : nullptr};

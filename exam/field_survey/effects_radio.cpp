@@ -85,7 +85,7 @@ std::optional<Planted> one_lobe(const Campaign& campaign, Draws& draws) {
   Planted planted{"antenna_tx"};
   planted.rows = {"radio/" + name(campaign, *which)};
   planted.also = {"antenna_rx"};
-  planted.kin = {"body_shadow"};
+  planted.kin = {"body_shadow", "sector_antenna"};
   planted.values = {{"amplitude", amplitude, "dB"}, {"direction", direction, "rad"}};
   planted.apply = [=](Scene&, Scene& truth) {
     truth.terms.emplace_back([=](const Path& path) {
@@ -103,8 +103,9 @@ std::optional<Planted> sector(const Campaign& campaign, Draws& draws) {
   const double width = draws.between(1.05, 1.6), direction = draws.between(-turn / 2, turn / 2);
   Planted planted{"sector_antenna"};
   planted.rows = {"radio/" + name(campaign, *which)};
-  planted.covariates = {"bearing", "tx_bearing", "rx_bearing", "position", "link"};
-  planted.also = {"antenna_tx", "antenna_rx", "body_shadow"};
+  planted.kin = {"antenna_tx", "antenna_rx", "body_shadow"};
+  planted.values = {
+      {"front_to_back", 20, "dB"}, {"direction", direction, "rad"}, {"edge", width * std::sqrt(20.0 / 12), "rad"}};
   planted.apply = [=](Scene&, Scene& truth) {
     truth.terms.emplace_back([=](const Path& path) {
       const auto b = bearing(path, *which);
@@ -153,8 +154,8 @@ std::optional<Planted> wrong_powers(const Campaign& campaign, Draws& draws) {
 }  // namespace
 
 std::vector<Kind> radio_kinds() {
-  return {{"tx_offset", weak_sender},   {"rx_offset", deaf_receiver},      {"feeder_loss", bad_feeder},
-          {"antenna_tx", one_lobe},     {"sector_antenna", sector, false}, {"body_shadow", body},
+  return {{"tx_offset", weak_sender},   {"rx_offset", deaf_receiver}, {"feeder_loss", bad_feeder},
+          {"antenna_tx", one_lobe},     {"sector_antenna", sector},   {"body_shadow", body},
           {"power_steps", wrong_powers}};
 }
 

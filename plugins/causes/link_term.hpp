@@ -66,6 +66,13 @@ class LinkTerm {
   // term(from, to) is in dB.
   template <class Term>
   void add(const Step& k, const Term& term) const {
+    add_of_each(k, [&](const End& from, const End& to, std::size_t) { return term(from, to); });
+  }
+
+  // term(from, to, i) of the link in row i; `size(k)`: how many there are.
+  std::size_t size(const Step& k) const { return k[ends].size(); }
+  template <class Term>
+  void add_of_each(const Step& k, const Term& term) const {
     const auto links = k[ends];
     const auto radios = k[endpoint];
     const auto poses = k[pose];
@@ -74,7 +81,7 @@ class LinkTerm {
       const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // the conversion that machines have
       return End{radios[i].radio, radios[i].t, poses[i]};
     };
-    for (std::size_t i = 0; i < links.size(); ++i) out[i].level = term(end(links[i].tx), end(links[i].rx));
+    for (std::size_t i = 0; i < links.size(); ++i) out[i].level = term(end(links[i].tx), end(links[i].rx), i);
   }
 
   // A reciprocal term: the ends are ordered by their places, so both directions agree to the last bit.

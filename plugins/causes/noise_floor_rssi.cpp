@@ -10,7 +10,7 @@ namespace {
 using namespace muster;
 
 struct Noise {
-  static constexpr const char* columns = "t[s] tx:radio rx:radio noise[dBm]";
+  static constexpr const char* columns = "t[s]? tx:radio rx:radio noise[dBm]";
   double t, tx, rx, noise;
 };
 
@@ -22,8 +22,8 @@ struct NoiseFloorRssi {
   static constexpr auto manual =
       "Takes away share x (noise - reference) from each reading, the noise at the receiver being the column "
       "noise[dBm] of `file` (t, tx, rx and noise: two packets of one tick meet two noises; what stood last for the "
-      "pair at or before a time holds, else for the receiver; the measured readings will do). With share 1 the reading "
-      "is a signal-to-noise ratio.";
+      "pair at or before a time holds, else for the receiver; the measured readings will do, and without t have to: "
+      "row for row). With share 1 the reading is a signal-to-noise ratio.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       file("file", "the noise at each receiver, a CSV table").required(),
@@ -35,7 +35,7 @@ struct NoiseFloorRssi {
       MUSTER_STAGE,
       "the RSSI falls as the noise rises: it is a share of {share} of a ratio to it",
       "",
-      "t noise",
+      "noise",
       "effect.drift effect.periodic effect.rssi_floor",
       "stand still and let others talk: levels do not change, noise does",
       nullptr,
@@ -56,8 +56,8 @@ struct NoiseFloorRssi {
     rssi.each(k, [&](double reading, std::size_t i) {
       const Endpoint& from = k[endpoint][static_cast<std::size_t>(k[ends][i].tx)];
       const Endpoint& to = k[endpoint][static_cast<std::size_t>(k[ends][i].rx)];
-      const double of_pair = of_pairs.at({from.radio, to.radio}, to.t);
-      const double noise = is_null(of_pair) ? of_receivers.at(to.radio, to.t) : of_pair;
+      const double of_pair = of_pairs.at({from.radio, to.radio}, to.t, i, k[ends].size());
+      const double noise = is_null(of_pair) ? of_receivers.at(to.radio, to.t, i, k[ends].size()) : of_pair;
       return is_null(noise) ? reading : reading - k[share] * (noise - k[reference]);
     });
   }

@@ -12,7 +12,7 @@ namespace {
 using namespace muster;
 
 struct Power {
-  static constexpr const char* columns = "t[s] tx:radio power[dBm]";
+  static constexpr const char* columns = "t[s]? tx:radio power[dBm]";
   Setting<double> setting;
 };
 
@@ -21,13 +21,12 @@ struct PowerSteps {
   static constexpr auto summary = "nominal transmit powers are not the real ones";
   static constexpr auto manual =
       "A radio was set to several powers while it was measured, which the column power[dBm] of `file` tells (t, tx "
-      "and power; what stood last at or before a time holds; the measured readings will do). Adds `error1` to what "
-      "was sent at the lowest of the powers in the file, `error2` at the next. Of more than six powers, `error1` is "
-      "that "
-      "of the lowest, `error6` that of the highest, the others those of powers evenly between, and errors change "
-      "linearly from one to the next. Readings that the world is held against, and whose powers stand in for the "
-      "file's, are to have the same ones. Data in which each reading was referred to its nominal power need nothing "
-      "else.";
+      "and power; what stood last at or before a time holds; the measured readings will do, and without t have to: "
+      "row for row). Adds `error1` to what was sent at the lowest of the powers in the file, `error2` at the next. Of "
+      "more than six powers, `error1` is that of the lowest, `error6` that of the highest, the others those of powers "
+      "evenly between, and errors change linearly from one to the next. Readings that the world is held against, and "
+      "whose powers stand in for the file's, are to have the same ones. Data in which each reading was referred to its "
+      "nominal power need nothing else.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       file("file", "when each radio was set to which power, a CSV table").required(),
@@ -43,7 +42,7 @@ struct PowerSteps {
       MUSTER_TERM,
       "powers are not as set: by {error1}, {error2}, {error3}, {error4}, {error5}, {error6} from the lowest up",
       "",
-      "t power",
+      "power",
       "effect.tx_offset effect.step effect.rssi_saturation",
       "switch through all powers at one place, both radios standing",
       nullptr,
@@ -61,8 +60,9 @@ struct PowerSteps {
     const std::vector<double> levels = settings.values();
     std::array<double, std::extent<decltype(errors)>::value> values{};
     for (std::size_t e = 0; e < values.size(); ++e) values[e] = k[errors[e]];
-    links.add(k, [&](const End& from, const End&) {
-      const double power = settings.at(from.radio, from.t);
+    const std::size_t count = links.size(k);
+    links.add_of_each(k, [&](const End& from, const End&, std::size_t reading) {
+      const double power = settings.at(from.radio, from.t, reading, count);
       if (is_null(power)) return 0.0;
       if (levels.size() > values.size())
         return between(values, (power - levels.front()) / (levels.back() - levels.front()));

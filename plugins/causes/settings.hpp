@@ -1,8 +1,11 @@
-// A column of measured data that belongs to a radio, or a pair of radios, and changes in time.
+// A column of measured data that belongs to a radio, or a pair of radios, and changes in time. In a file without times
+// each row is of the reading in the same row of the measured data.
 #pragma once
 
 #include <algorithm>
 #include <muster/plugin.hpp>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -22,15 +25,29 @@ class Settings {
   // The file does not change, so it is sorted once. `setting_of` makes a Setting of a row.
   template <class Row, class Of>
   void read(Rows<const Row> rows, Of setting_of) {
-    if (!settings_.empty()) return;
-    for (const Row& row : rows) settings_.push_back(setting_of(row));
+    if (!by_row_.empty()) return;
+    for (const Row& row : rows) {
+      settings_.push_back(setting_of(row));
+      by_row_.push_back(settings_.back().value);
+      if (!is_null(settings_.back().t)) timed_ = true;
+    }
+    if (!timed_) return;
+    settings_.erase(std::remove_if(settings_.begin(), settings_.end(), [](const auto& s) { return is_null(s.t); }),
+                    settings_.end());
     std::sort(settings_.begin(), settings_.end(), [](const Setting<Owner>& a, const Setting<Owner>& b) {
       return std::tie(a.owner, a.t, a.value) < std::tie(b.owner, b.t, b.value);
     });
   }
 
   // The last value set for the owner at the time, or its first if the time is earlier; null for an owner not in the
-  // file.
+  // file. Without times that of the row `reading`, of `readings`.
+  double at(const Owner& owner, double t, std::size_t reading, std::size_t readings) const {
+    if (timed_) return at(owner, t);
+    if (readings == by_row_.size()) return by_row_[reading];
+    throw std::runtime_error("without a column t the file's rows are those of the readings: expected " +
+                             std::to_string(readings) + " rows, found " + std::to_string(by_row_.size()));
+  }
+
   double at(const Owner& owner, double t) const {
     const auto after =
         std::upper_bound(settings_.begin(), settings_.end(), std::tie(owner, t),
@@ -49,6 +66,8 @@ class Settings {
 
  private:
   std::vector<Setting<Owner>> settings_;
+  std::vector<double> by_row_;  // of the file
+  bool timed_ = false;
 };
 
 }  // namespace muster

@@ -99,10 +99,13 @@ void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement
 
 void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c) const {
   const Cause& cause = shape.cause;
-  const bool time = needs(cause, "t"), heading = needs(cause, "rx_yaw"), placed = shape.place != PlaceShape::none;
+  const std::string column = own_column(cause);
+  const bool in_time = !column.empty() && column != "walls";  // a column's values change from reading to reading
+  const bool time = needs(cause, "t") || in_time, heading = needs(cause, "rx_yaw"),
+             placed = shape.place != PlaceShape::none;
   const bool edit = cause.meaning().kind == MUSTER_WORLD_EDIT;
   const bool decibels = shape.linear.size() == 1 && shape.linear[0]->unit == std::string("dB");
-  c.role.time_like = time && own_column(cause).empty();
+  c.role.time_like = time && column.empty();
   c.role.slow = !time && !heading && !(placed && c.design.sign && decibels);
   c.role.level_like = shape.set().empty() && !placed && !time;
   if (placed && !c.role.slow) c.role.pieces = "place";

@@ -1,6 +1,8 @@
 #include "diagnosis/radio/links/drawn_term.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace muster::diagnosis {
 namespace {
@@ -22,6 +24,44 @@ const Instance* drawing(const LinkModel& model) {
   return result;
 }
 
+using Ends = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+// Pairs of links, those between the same places once. Radios that stand give a few links many readings.
+class DistinctPairs {
+ public:
+  DistinctPairs(const Ends& ends, const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+    std::map<std::array<double, 6>, uint32_t> known;
+    std::vector<uint32_t> link;
+    for (Eigen::Index i = 0; i < ends.cols(); ++i) {
+      std::array<double, 6> at;
+      Eigen::Map<Eigen::Matrix<double, 6, 1>>(at.data()) = ends.col(i);
+      link.push_back(known.try_emplace(at, static_cast<uint32_t>(known.size())).first->second);
+    }
+    const std::size_t links = known.size();
+    if (links * links > a.size()) return;  // hardly any pair comes twice
+    constexpr uint32_t none = ~uint32_t{0};
+    std::vector<uint32_t> number(links * links, none);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      uint32_t& pair = number[link[a[i]] * links + link[b[i]]];
+      if (pair == none) {
+        pair = static_cast<uint32_t>(a_.size());
+        a_.push_back(a[i]), b_.push_back(b[i]);
+      }
+      of_.push_back(pair);
+    }
+  }
+
+  bool found() const { return !of_.empty(); }
+  const std::vector<uint32_t>& a() const { return a_; }
+  const std::vector<uint32_t>& b() const { return b_; }
+  void spread(const std::vector<double>& values, double* out) const {
+    for (std::size_t i = 0; i < of_.size(); ++i) out[i] = values[of_[i]];
+  }
+
+ private:
+  std::vector<uint32_t> a_, b_, of_;  // of each pair that was given: its number
+};
+
 class DrawnTerm : public noise::StatedCorrelation {
  public:
   explicit DrawnTerm(const Instance& instance)
@@ -34,11 +74,18 @@ class DrawnTerm : public noise::StatedCorrelation {
 
   void covariances(const noise::Sites& sites, double decorrelation, const std::vector<uint32_t>& a,
                    const std::vector<uint32_t>& b, double* out) const override {
-    Eigen::Matrix<double, 6, Eigen::Dynamic> ends(6, sites.size());
+    Ends ends(6, sites.size());
     ends << sites.place, sites.anchor;
     std::vector<double> params = params_;
     params[distance_] = decorrelation;
-    draw_.covariance(params.data(), ends.data(), a.data(), b.data(), static_cast<uint32_t>(a.size()), out);
+    const auto ask = [&](const auto& one, const auto& other, double* to) {
+      draw_.covariance(params.data(), ends.data(), one.data(), other.data(), static_cast<uint32_t>(one.size()), to);
+    };
+    const DistinctPairs pairs(ends, a, b);
+    if (!pairs.found()) return ask(a, b, out);
+    std::vector<double> values(pairs.a().size());
+    ask(pairs.a(), pairs.b(), values.data());
+    pairs.spread(values, out);
   }
 
  private:

@@ -18,15 +18,18 @@ Index twin_of(const LinkReadings& readings, Index reading) {
 }
 
 // Of twins the one that the radio of the lower number sent.
-std::vector<Index> by_link_and_time(const LinkReadings& readings) {
+std::vector<Index> by_link_and_time(const LinkReadings& readings, double row_time) {
   std::vector<Index> order;
   for (Index i = 0; i < readings.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (twin_of(readings, i) < 0 || readings.tx[k] < readings.rx[k]) order.push_back(i);
   }
+  const bool timed = !readings.t.empty(), several = !readings.setting.empty() && (!timed || row_time > 0);
   const auto key = [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
-    return std::tuple(readings.tx[k], readings.rx[k], readings.t.empty() ? 0.0 : readings.t[k]);
+    const double t = timed ? readings.t[k] : 0.0;
+    return std::tuple(readings.tx[k], readings.rx[k], several && timed ? std::floor(t / row_time) : 0.0,
+                      several ? readings.setting[k] : 0, t);
   };
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   return order;
@@ -36,6 +39,7 @@ bool ends_row(const LinkReadings& r, const LinkRowLimits& limits, Index first, I
   const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(next);
   if (r.tx[a] != r.tx[b] || r.rx[a] != r.rx[b]) return true;
   if ((twin_of(r, first) < 0) != (twin_of(r, next) < 0)) return true;
+  if (!r.setting.empty() && r.setting[a] != r.setting[b]) return true;
   if (!r.t.empty() && r.t[b] - r.t[a] >= limits.time) return true;
   for (const std::vector<double>* yaw : {&r.rx_yaw, &r.tx_yaw}) {
     if (!yaw->empty() && std::abs(std::remainder((*yaw)[b] - (*yaw)[a], 2 * M_PI)) > limits.turn) return true;
@@ -83,7 +87,7 @@ LinkRowLimits never_shorter(const LinkRowLimits& rows) {
 }  // namespace
 
 noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits) {
-  std::vector<Index> order = by_link_and_time(readings), first;
+  std::vector<Index> order = by_link_and_time(readings, limits.time), first;
   for (std::size_t k = 0; k < order.size(); ++k) {
     if (k == 0 || ends_row(readings, limits, order[static_cast<std::size_t>(first.back())], order[k]))
       first.push_back(static_cast<Index>(k));
@@ -141,6 +145,7 @@ LinkReadings middles(const noise::Rows& rows, const LinkReadings& readings) {
     if (!readings.rx_yaw.empty()) result.rx_yaw.push_back(readings.rx_yaw[k]);
     if (!readings.tx_yaw.empty()) result.tx_yaw.push_back(readings.tx_yaw[k]);
     if (!readings.level.empty()) result.level.push_back(readings.level[k]);
+    if (!readings.setting.empty()) result.setting.push_back(readings.setting[k]);
   }
   return result;
 }

@@ -13,6 +13,8 @@ struct LinkReadings {
   std::vector<double> rx_yaw;     // rad; empty: unknown
   std::vector<double> tx_yaw;     // the same of the transmitter
   std::vector<double> level;      // dB, expected level of a model; empty: unknown
+  // Which of the radios' settings (powers, channels, ...) the data were read at, from 0; empty: always the same.
+  std::vector<int> setting{};
   // The reading of the other direction at the same moment, or -1; empty: none has one, or the two scatter apart.
   std::vector<noise::Index> twin;
   double twin_variance = 0;  // dB^2, of half the difference of twins
@@ -28,7 +30,8 @@ struct LinkRowLimits {
   double level = thresholds::row_level;  // dB: levels with and without a wall are not averaged
 };
 
-// Rows within these limits, sorted by link, then time.
+// Rows within these limits, sorted by link, then time. Readings of one setting stand together among those of one link
+// that are of no time or not further apart than a row lasts.
 noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits = {});
 // Place: the end that moves more. Anchor: the other one, the same for both directions of a pair.
 noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings);

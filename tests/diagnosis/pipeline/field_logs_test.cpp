@@ -178,5 +178,40 @@ TEST(FieldLog, AFieldThatTheWorldDoesNotStateIsNotAdequate) {
   EXPECT_FALSE(stated.unstated_field);
 }
 
+// Six radios that stand hear each other at two powers in turn, in a log without a clock. The lower power is 3 dB less
+// low than it says. A world that is written names the power of each row of the log.
+TEST(FieldLog, PowersOfAMeshWithoutAClock) {
+  const Scratch scratch;
+  const Stream random(key_of("powers"));
+  std::string radios, table = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm],power[dBm]\n";
+  std::vector<Eigen::Vector2d> at;
+  for (uint64_t k = 0; k < 6; ++k) {
+    at.emplace_back(24 * random.uniform(k, 0), 16 * random.uniform(k, 1));
+    radios += fmt::format("<station name=\"n{}\" at=\"{} {} 1\"/>", k, at[k].x(), at[k].y());
+  }
+  for (uint64_t packet = 0; packet < 20; ++packet) {
+    for (uint64_t tx = 0; tx < 6; ++tx) {
+      for (uint64_t rx = 0; rx < 6; ++rx) {
+        if (rx == tx) continue;
+        const double shadowing = 3.7 * random.of(9).normal(std::min(tx, rx), std::max(tx, rx));
+        const double noise = 1.4 * random.of(10).normal(packet, 6 * tx + rx);
+        const double level = 1 - 35 - 20 * std::log10((at[tx] - at[rx]).norm()) + shadowing + noise;
+        table += fmt::format("n{},n{},{},{},{},{},{},{}\n", tx, rx, at[tx].x(), at[tx].y(), at[rx].x(), at[rx].y(),
+                             std::lround(level + (packet % 2 == 0 ? 0 : 3)), packet % 2 == 0 ? 10 : 0);
+      }
+    }
+  }
+  std::ofstream(scratch / "measured.csv") << table;
+  const auto world = world_of(scratch, "world.xml", radios);
+  const Diagnosis found = diagnose(world, scratch / "measured.csv", plugins);
+  EXPECT_EQ(names_in_words(named_causes(found)), "effect.power_steps all");
+  ASSERT_EQ(found.causes.size(), 1u);
+  EXPECT_EQ(found.causes[0].values.at(0).name, "error1");
+  EXPECT_NEAR(found.causes[0].values.at(0).value, 3, 0.4);
+  const Scratch out;
+  const auto extended = write_extended_world(found, world, out / "w");
+  EXPECT_TRUE(named_causes(diagnose(extended, scratch / "measured.csv", plugins)).empty());
+}
+
 }  // namespace
 }  // namespace muster::diagnosis

@@ -111,6 +111,28 @@ TEST(LinkRows, EndWhereAWallChangesTheLevel) {
   EXPECT_EQ(link_rows(r).size(), 1);
 }
 
+// A radio that switches through two powers: readings of either are averaged, not of both, with a clock and without.
+TEST(LinkRows, HoldReadingsOfOneSetting) {
+  LinkReadings r;
+  for (int k = 0; k < 12; ++k) {
+    r.tx.push_back(0);
+    r.rx.push_back(1);
+    r.setting.push_back(k % 2);
+  }
+  r.tx_at = Eigen::Matrix3Xd::Zero(3, 12);
+  r.rx_at = Eigen::Matrix3Xd::Ones(3, 12);
+  for (const bool clock : {false, true}) {
+    for (int k = 0; clock && k < 12; ++k) r.t.push_back(100 + 0.05 * k);
+    const Rows rows = link_rows(r);
+    ASSERT_EQ(rows.size(), 2) << clock;
+    EXPECT_EQ(rows.count()[0], 6);
+    for (Index i = 0; i < 12; ++i) EXPECT_EQ(rows.row_of()[static_cast<std::size_t>(i)], i % 2);
+    EXPECT_EQ(middles(rows, r).setting, (std::vector<int>{0, 1}));
+  }
+  r.setting.clear();
+  EXPECT_EQ(link_rows(r).size(), 1);
+}
+
 TEST(LinkRows, EndWhereEitherRadioTurns) {
   LinkReadings still;  // ten readings within a second at one place
   for (int k = 0; k < 10; ++k) {

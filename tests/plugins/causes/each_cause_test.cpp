@@ -28,6 +28,7 @@ const std::vector<Example>& examples() {
       {"antenna_tx", "radio=\"a\" amplitude=\"3\"", ""},
       {"antenna_rx", "radio=\"r\" amplitude=\"3\" direction=\"1\"", ""},
       {"body_shadow", "radio=\"r\" loss=\"3\" width=\"1.2\"", ""},
+      {"sector_antenna", "radio=\"a\" front_to_back=\"9\"", ""},
       {"wall_material", "wall=\"w\" change=\"3\"", ""},
       {"wall_absent", "wall=\"w\" share=\"0.5\"", ""},
       {"counted_walls", "material=\"wood\" file=\"measured.csv\" loss=\"3\"", ""},

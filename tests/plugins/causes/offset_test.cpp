@@ -34,6 +34,15 @@ TEST(Antenna, OfAStandingRadioIsTheSameBothWays) {
   });
 }
 
+// Half of the sector's 20 dB at edge / sqrt(2), all of them from the edge on, the same both ways.
+TEST(Antenna, OfASectorLosesNoMoreThanItsFrontToBack) {
+  expect_term("sector_antenna", "radio=\"b\" front_to_back=\"20\" direction=\"1\" edge=\"1.5\"", [](const Reading& r) {
+    if (r.tx != "b" && r.rx != "b") return 0.0;
+    const double off = std::remainder((r.tx == "b" ? seen(r.from, r.to) : seen(r.to, r.from)) - 1, 2 * M_PI);
+    return std::abs(off) > 1.5 ? -20.0 : -20 * std::pow(off / 1.5, 2);
+  });
+}
+
 TEST(Antenna, OfAMovingRadioTurnsWithIt) {
   expect_term("antenna_rx", "radio=\"r\" amplitude=\"4\" direction=\"-2.5\"", [](const Reading& r) {
     if (r.tx == "r") return 4 * std::cos(seen(r.from, r.to) + 2.5);
@@ -160,6 +169,26 @@ TEST(PowerSteps, WhatStoodLastHolds) {
   for (std::size_t i = 0; i < part.size(); ++i) {
     const Reading& r = site.readings[i];
     EXPECT_EQ(part[i], r.tx != "a" ? 0 : r.t < 60 ? 2 : -1) << r.t;
+  }
+}
+
+// Without times the file's rows are those of the readings; a file of another length is refused.
+TEST(PowerSteps, WithoutTimesEachRowHoldsForItsReading) {
+  Site site;
+  std::string powers = "tx,power[dBm]\n";
+  for (const Reading& r : site.readings) powers += r.tx + "," + (r.power == -10 ? "-10" : "0") + "\n";
+  site.put("powers.csv", powers);
+  const std::string it = effect("power_steps", "file=\"powers.csv\" error1=\"2\" error2=\"-1\"");
+  const auto part = column(site.world(it), "link/*/level@it");
+  for (std::size_t i = 0; i < part.size(); ++i) EXPECT_EQ(part[i], site.readings[i].power == -10 ? 2 : -1) << i;
+  site.put("powers.csv", powers + "a,0\n");
+  try {
+    column(site.world(it), "link/*/level@it");
+    ADD_FAILURE() << "a file of another length was taken";
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("without a column t the file's rows are those of the readings"),
+              std::string::npos)
+        << e.what();
   }
 }
 
