@@ -251,6 +251,10 @@ inline constexpr double block_side = 3;
 inline constexpr int fewest_refuting_blocks = 5;
 // share; growth of the squared error at left-out places by which a term is refuted, whatever its interval; chosen; none
 inline constexpr double refuting_growth = 0.25;
+// share; the same for a term of this gain, which few blocks refute only where its predictions are wild; chosen; none
+inline constexpr double refuting_growth_of_sure = 3;
+// lambda; from which a term is that sure; chosen; none
+inline constexpr double sure_of_growth = 200;
 // share; of its gain that a term keeps on rows left out, given their neighbours, where it is not refuted by the plain
 // error there; chosen; Refutation.SparesASmallOffsetThatNeighboursShow
 inline constexpr double borne_out_share = 0.5;

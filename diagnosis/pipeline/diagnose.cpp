@@ -39,12 +39,12 @@ Diagnosis interrupted(Diagnosis found) {
 
 class Diagnoser {
  public:
-  // Laws of the cause `without_law` are not tested.
+  // Laws of the cause `without_law` are not tested. `expected`: as of a DiagnosisSetup.
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins,
             const std::shared_ptr<TableCache>& tables, const inference::Watch& watch,
-            const std::string& without_law = "")
+            const std::string& without_law = "", const VectorXd& expected = {})
       : watch_(watch),
-        setup_(world, file, plugins, tables),
+        setup_(world, file, plugins, tables, expected),
         moved_(setup_.model),
         causes_(setup_.causes),
         world_(world),
@@ -350,7 +350,7 @@ void add_searched(const OwnWorldVerdict& verdict, Diagnosis& out) {
 
 // A fault of the map or the log that is likelier in a world of its own is corrected first. A radio in the wrong place
 // biases all other findings: the diagnosis is repeated with the radio corrected. After blockage it is repeated without
-// the blocked link. If a change in time remains, blockage must pass a stricter threshold.
+// the blocked link, or the blocked readings. If a change in time remains, blockage must pass a stricter threshold.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
                    const inference::Watch& watch) {
@@ -378,7 +378,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   first.causes = {*spoiler};
   first.causes[0].sought_as.clear();
   const TemporaryFolder folder;
-  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch);
+  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, "", found.mean);
   if (!blockage) {
     first.causes[0].put_right_first = true;
     Diagnosis corrected = with_it.run(&first);

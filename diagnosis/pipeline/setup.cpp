@@ -1,10 +1,7 @@
 #include "diagnosis/pipeline/setup.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "diagnosis/inference/assess/search.hpp"
 #include "diagnosis/inference/thresholds.hpp"
@@ -35,48 +32,6 @@ FitOptions hold_causes(const LinkModel& model) {
     }
   }
   return options;
-}
-
-std::string attribute_of(const InstanceDeclaration& instance, const std::string& name) {
-  for (const XmlAttribute& a : instance.attributes) {
-    if (a.name == name) return a.value;
-  }
-  return "";
-}
-
-// Rows of the fit, without links that the world declares as blocked now and then: bursts at unknown times imitate any
-// change in time. A link stays if one of its radios has few other readings. Throws Error if too few rows are left.
-UsedRows used_rows(const LinkModel& model, const Dataset& data, const Fit& fitted) {
-  UsedRows used;
-  for (const std::size_t row : fitted.rows_used()) {
-    if (!data.is_wild(row)) used.rows.push_back(static_cast<Index>(row));
-  }
-  for (const auto& instance : model.simulation().instances()) {
-    const muster_burst* const burst = instance->plugin().burst;
-    if (!burst) continue;
-    const InstanceDeclaration& declared = instance->declared();
-    const std::string one = attribute_of(declared, burst->one), other = attribute_of(declared, burst->other);
-    if (one.empty() || other.empty()) continue;
-    std::vector<Index> left;
-    std::size_t of_one = 0, of_other = 0;  // readings left
-    for (const Index row : used.rows) {
-      const auto& [tx, rx] = model.ends()[static_cast<std::size_t>(row)];
-      const std::set<std::string> ends = model.link_of(tx.radio, rx.radio);
-      if (ends == std::set{one, other}) continue;
-      of_one += ends.count(one);
-      of_other += ends.count(other);
-      left.push_back(row);
-    }
-    if (std::min(of_one, of_other) < (used.rows.size() - left.size()) / 2) continue;
-    used.notes.push_back(
-        fmt::format("{} blocks the link {} {} of the world: its {} readings are left out of the search", declared.name,
-                    one, other, used.rows.size() - left.size()));
-    used.rows = std::move(left);
-  }
-  if (static_cast<Index>(used.rows.size()) < inference::thresholds::fewest_readings)
-    throw invalid({data.table->file()}, fmt::format("the table has {} readings to search; expected at least {}",
-                                                    used.rows.size(), inference::thresholds::fewest_readings));
-  return used;
 }
 
 std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> lists) {
@@ -151,7 +106,8 @@ inference::Problem problem_of(const DiagnosisSetup& at) {
 }  // namespace
 
 DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& table,
-                               const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables)
+                               const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
+                               const VectorXd& expected)
     : file(table),
       data(read_dataset(tables->read(table))),
       receiver(receiver_checks(data)),
@@ -161,7 +117,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       notes_of_places(data.has_places() ? check_places(model, data) : std::vector<std::string>{}),
       fitted(fit(model, data, hold_causes(model))),
       base(sensitivities(model, fitted.parameters)),
-      used(used_rows(model, data, fitted)),
+      used(used_rows(model, data, expected.size() > 0 ? expected : fitted.mean, fitted.rows_used())),
       notes(joined({data.notes, notes_on_radios(model, data), notes_of_places, used.notes})),
       run(std::make_shared<CauseModel>(model, world, table, plugins)),
       observed(observed_columns(data, used.rows)),

@@ -5,24 +5,21 @@
 #include "diagnosis/causes/cause_candidates.hpp"
 #include "diagnosis/inference/state/problem.hpp"
 #include "diagnosis/pipeline/link_observations.hpp"
+#include "diagnosis/pipeline/used_rows.hpp"
 #include "diagnosis/prediction/sensitivities.hpp"
 #include "diagnosis/radio/causes/simulated_readings.hpp"
 #include "diagnosis/radio/links/world_draws.hpp"
 
 namespace muster::diagnosis {
 
-// Rows of the table used in the search, and notes on those left out.
-struct UsedRows {
-  std::vector<Eigen::Index> rows;
-  std::vector<std::string> notes;
-};
-
 // Each member is built from those above it.
 struct DiagnosisSetup {
-  // `tables`: files already read. Throws Error.
+  // `tables`: files already read. `expected`: the level of every row of the table by an earlier diagnosis [dBm], by
+  // which blocked readings are known; empty: that of the fitted world. Throws Error.
   DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& file,
                  const Library::SearchPath& plugins,
-                 const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>());
+                 const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>(),
+                 const Eigen::VectorXd& expected = {});
   DiagnosisSetup(const DiagnosisSetup&) = delete;
   DiagnosisSetup& operator=(const DiagnosisSetup&) = delete;
 

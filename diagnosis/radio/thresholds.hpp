@@ -286,6 +286,16 @@ inline constexpr double usual_misfit = 2;
 inline constexpr double flipped_times = 3;
 // nats; ratio below which no shuffled null can be significant; chosen; none
 inline constexpr double promising_blockage = 3;
+// durations of a crossing; to either side, over which a running median is taken; chosen;
+// LikelyBlocked.ALastingChangeOfLevelIsNoCrossing
+inline constexpr double median_reach = 8;
+// standard deviations; half of a normal variable lies within; derived; LikelyBlocked.FindsTheReadingsThatWereBlocked
+inline constexpr double normal_quartile = 0.6745;
+// dB; least scatter of readings about their median; chosen; none
+inline constexpr double least_scatter = 0.3;
+// probability; from which a reading of a link that people cross is left out; chosen;
+// LikelyBlocked.FindsTheReadingsThatWereBlocked
+inline constexpr double probably_blocked = 0.3;
 
 // pipeline
 

@@ -20,6 +20,7 @@ std::optional<When> when(const Campaign& campaign, Draws& draws, Planted& plante
   if (senders.size() > 1 && draws.flip()) {
     result.radio = draws.one_of(std::vector<int>(senders.begin(), senders.end()));
     planted.rows = {"radio/" + campaign.scene.radios[static_cast<std::size_t>(result.radio)].name};
+    planted.also.push_back("tx_" + planted.id);
   }
   return result;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <muster/plugin.hpp>
 
-#include "link_term.hpp"
+#include "time_shapes.hpp"
 
 namespace {
 
@@ -42,10 +42,8 @@ struct Drift {
         links(s) {}
 
   void step(const Step& k) const {
-    const double change = k[rate] / 3600 * k[settling];  // dB
     links.add(k, [&](const End& from, const End& to) {
-      if (!concerns(k[radio], from, to)) return 0.0;
-      return -change * std::expm1(-std::max(to.t - k[start], 0.0) / k[settling]);
+      return concerns(k[radio], from, to) ? drifted(k[rate], k[settling], k[start], to.t) : 0.0;
     });
   }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <muster/plugin.hpp>
 
-#include "link_term.hpp"
+#include "time_shapes.hpp"
 
 namespace {
 
@@ -43,8 +43,7 @@ struct Periodic {
 
   void step(const Step& k) const {
     links.add(k, [&](const End& from, const End& to) {
-      if (!concerns(k[radio], from, to)) return 0.0;
-      return k[amplitude] * std::cos(full_turn * to.t / k[period] - k[crest]);
+      return concerns(k[radio], from, to) ? swung(k[amplitude], k[period], k[crest], to.t) : 0.0;
     });
   }
 

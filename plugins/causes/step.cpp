@@ -1,7 +1,7 @@
 // A level that jumped: an antenna was touched, a setting changed.
 #include <muster/plugin.hpp>
 
-#include "link_term.hpp"
+#include "time_shapes.hpp"
 
 namespace {
 
@@ -33,8 +33,9 @@ struct Jump {
   explicit Jump(Setup& s) : radio(s.value("radio")), at(s.value("at")), size(s.value("size")), links(s) {}
 
   void step(const Step& k) const {
-    links.add(
-        k, [&](const End& from, const End& to) { return concerns(k[radio], from, to) && to.t >= k[at] ? k[size] : 0; });
+    links.add(k, [&](const End& from, const End& to) {
+      return concerns(k[radio], from, to) ? jumped(k[at], k[size], to.t) : 0.0;
+    });
   }
 
   Value radio, at, size;

@@ -147,8 +147,9 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state) {
     const Eigen::VectorXd without = white_errors(whitener, state.design_without(term), state.y(), blocks);
     return (without - white).sum() > thresholds::borne_out_share * term.gain;
   };
-  const auto grows = [&](const HeldOutGain& gain, const Eigen::VectorXd& before) {
-    return gain.gain < -thresholds::refuting_growth * before.mean();
+  const auto grows = [&](std::size_t one, const HeldOutGain& gain, const Eigen::VectorXd& before) {
+    const bool sure = state.terms[one].gain > thresholds::sure_of_growth;
+    return gain.gain < -(sure ? thresholds::refuting_growth_of_sure : thresholds::refuting_growth) * before.mean();
   };
   // A term may fail in few blocks and badly: the interval then includes 0.
   const Eigen::VectorXd base = errors.first(0);
@@ -157,7 +158,7 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state) {
   return worst_of(state, full, without, [&](std::size_t one) {
     const Eigen::VectorXd before = without(one);
     const HeldOutGain gain = folds.compared(before, full);
-    if (grows(gain, before) || grows(all, base)) return true;
+    if (grows(one, gain, before) || grows(one, all, base)) return true;
     return many && (all.upper95 < 0 || gain.upper95 < 0) && !borne_out(one);
   });
 }

@@ -51,7 +51,7 @@ bool ends_row(const LinkReadings& r, const LinkRowLimits& limits, Index first, I
 
 // Path lengths of the radios of each pair. Both directions share their shadowing, so they share one anchor: the radio
 // that moved less. A tie in a lone direction goes to the end that moves less over all links.
-class Ways {
+class WaysOfPairs {
  public:
   void add(int tx, int rx, double tx_way, double rx_way) {
     Pair& pair = of_[std::minmax(tx, rx)];
@@ -99,7 +99,7 @@ noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits)
 noise::Sites link_sites(const noise::Rows& rows, const LinkReadings& readings) {
   const Eigen::Matrix3Xd tx = rows.by_stream(rows.mean(readings.tx_at.transpose())).transpose();
   const Eigen::Matrix3Xd rx = rows.by_stream(rows.mean(readings.rx_at.transpose())).transpose();
-  Ways ways;
+  WaysOfPairs ways;
   Eigen::Matrix3Xd tx_stretch(3, rows.size()), rx_stretch(3, rows.size());
   for (Index i = 0; i < rows.size(); ++i) {
     const Index a = rows.example(i), b = rows.last(i);
