@@ -24,7 +24,7 @@ struct ColumnShifted {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_INSTRUMENT,
-      "the column of {column} in the log is {by|rows late|rows early}",
+      "the column of {column} in the log is {by} rows late (negative: early)",
       "",
       places_in_plan,
       "effect.labels_shifted effect.outliers",

@@ -23,7 +23,8 @@ struct FeederLoss {
   static constexpr muster_cause cause = {
       sizeof(muster_cause),
       MUSTER_TERM,
-      "the feeder of the radio {radio} (cable, connectors, antenna) loses {loss|more|less} than the world says, both ways",
+      "the feeder of the radio {radio} (cable, connectors, antenna) loses {loss|more|less} than the world says, both "
+      "ways",
       "radio",
       "",
       "effect.tx_offset effect.rx_offset effect.obstacle effect.room_clutter effect.height",
