@@ -311,10 +311,12 @@ class Judge {
     const double most = std::max_element(all.begin(), all.end(), [](const Judged& a, const Judged& b) {
                           return a.evidence < b.evidence;
                         })->evidence;
-    // Of those that the readings do not tell apart the simplest.
+    // Of those that the readings do not tell apart the simplest. What else is wrong with the world is in no hypothesis
+    // yet, so that small shares of the lead say little.
+    const double even = std::max(thresholds::own_world_even, thresholds::own_world_even_share * (most - plain));
     const auto simpler = [&](const Judged& a, const Judged& b) {
       const auto rank = [&](const Judged& j) {
-        return std::tuple(j.evidence < most - thresholds::own_world_even, j.world.hypothesis.cause->needs_own_world(),
+        return std::tuple(j.evidence < most - even, j.world.hypothesis.cause->needs_own_world(),
                           j.world.hypothesis.cause->plugin->param_count, j.world.hypothesis.number);
       };
       return rank(a) < rank(b);

@@ -358,6 +358,8 @@ inline constexpr std::size_t own_worlds_fitted = 4;
 inline constexpr double own_world_reach = 20;
 // nats; between hypotheses of which the simplest is named; chosen; none
 inline constexpr double own_world_even = 2;
+// share; of the lead over the given world, for the same; chosen; none
+inline constexpr double own_world_even_share = 0.03;
 // nats; by which a hypothesis must be likelier than what was found in the world as it is; chosen; none
 inline constexpr double own_world_beyond_found = 3;
 // nats; by which a hypothesis must be likelier than the world as it is; chosen; OwnWorld.CleanReadingsAreSilent
