@@ -14,12 +14,12 @@
 #include "diagnosis/pipeline/relative_to_given.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 #include "diagnosis/pipeline/setup.hpp"
+#include "diagnosis/pipeline/unstated_field.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
 #include "diagnosis/planning/second_station.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
-#include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
@@ -92,11 +92,7 @@ class Diagnoser {
     for (const std::string& blind : setup_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
     out.residual_sd = setup_.fitted.residual_sd;
     out.noise = result.noise.covariance;
-    if (drawn_field(setup_.model).shadowing <= 0) {
-      const noise::StatedField field = noise::stated_by(out.noise, state.within());
-      if (field.shadowing > thresholds::unstated_shadowing && field_is_seen(state))
-        out.unstated_field = {field.shadowing, field.decorrelation, std::sqrt(out.noise.reading_variance())};
-    }
+    out.unstated_field = unstated_field(setup_, state, out.noise);
     out.held_out = result.held_out;
     out.unseen = result.unseen;
     out.elsewhere = result.elsewhere;
@@ -145,17 +141,6 @@ class Diagnoser {
     }
     doubt_at_bounds(out);
     return out;
-  }
-
-  // True if a field explains the readings beyond chance: without one they are less likely.
-  static bool field_is_seen(const inference::ModelState& state) {
-    noise::Covariance none = state.fit.covariance;
-    none.theta[2] = std::log(none.reading_variance() + none.field_variance());
-    none.theta[0] = state.options().prior.lower()[0];
-    const Eigen::MatrixXd design = state.design();
-    const noise::Fit without =
-        noise::fit(state.field(), state.y(), design, state.options().prior, none, 8, {0, 0, 1, 0});
-    return without.value - state.whitened_model(design).at.value > thresholds::seen_field_nats;
   }
 
   // Doubts all causes if a parameter of the channel's own law is at its physical bound. The law then does not fit, and

@@ -1,0 +1,54 @@
+#include "diagnosis/pipeline/unstated_field.hpp"
+
+#include <cmath>
+
+#include "diagnosis/inference/noise/fit.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
+#include "diagnosis/radio/thresholds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// True if a field explains the readings beyond chance: without one they are less likely.
+bool is_seen(const inference::ModelState& state) {
+  noise::Covariance none = state.fit.covariance;
+  none.theta[2] = std::log(none.reading_variance() + none.field_variance());
+  none.theta[0] = state.options().prior.lower()[0];
+  const MatrixXd design = state.design();
+  const noise::Fit without = noise::fit(state.field(), state.y(), design, state.options().prior, none, 8, {0, 0, 1, 0});
+  return without.value - state.whitened_model(design).at.value > thresholds::seen_field_nats;
+}
+
+// The field, in dB, that readings drawn by the world itself share; the largest of several runs.
+double drawn_by_the_world(const DiagnosisSetup& at, const inference::ModelState& state,
+                          const noise::Covariance& start) {
+  double most = 0;
+  for (int k = 0; k < thresholds::runs_for_a_field; ++k) {
+    const WorldDraw draw = at.draws.draw(static_cast<uint64_t>(k), {}, {});
+    const VectorXd all = (draw.drawn - draw.expected)(at.used.rows);
+    const VectorXd errors = all.array().isFinite().select(all, 0);
+    if (errors.isZero()) continue;
+    const noise::Fit fit =
+        noise::fit(state.field(), state.rows().mean(errors), state.base(), state.options().prior, start);
+    most = std::max(most, noise::stated_by(fit.covariance, state.within()).shadowing);
+  }
+  return most;
+}
+
+}  // namespace
+
+std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const inference::ModelState& state,
+                                            const noise::Covariance& noise) {
+  if (drawn_field(at.model).shadowing > 0) return {};
+  const noise::StatedField field = noise::stated_by(noise, state.within());
+  if (!(field.shadowing > thresholds::unstated_shadowing) || !is_seen(state) ||
+      drawn_by_the_world(at, state, noise) > thresholds::drawn_field_share * field.shadowing)
+    return {};
+  return UnstatedField{field.shadowing, field.decorrelation, std::sqrt(noise.reading_variance())};
+}
+
+}  // namespace muster::diagnosis
