@@ -50,9 +50,8 @@ struct Status {
 
 // What exists while the run goes on: no state of the world.
 struct Connection {
-  Connection(const devices::Address& own, const devices::Address& robot, std::vector<devices::TableShape> shapes,
-             double speed, double most_late)
-      : socket(own), end(socket, robot, std::move(shapes), devices::new_session()), pace(clock, speed, most_late) {}
+  Connection(const devices::Address& own, const devices::Address& robot, std::vector<devices::TableShape> shapes)
+      : socket(own), end(socket, robot, std::move(shapes), devices::new_session()), pace(clock) {}
   devices::UdpSocket socket;
   devices::ControllerEnd end;
   devices::SteadyClock clock;
@@ -101,10 +100,8 @@ void connect(Device& device) {
   std::vector<Port> both = device.filled;
   both.insert(both.end(), device.commands.begin(), device.commands.end());
   const bool is_here = device.robot.host >> 24 == 127;
-  const double speed = device.param("speed");
-  device.connection =
-      std::make_unique<Connection>(devices::address_of(is_here ? "127.0.0.1" : "0.0.0.0", 0), device.robot,
-                                   devices::shapes_of(both, true), speed, device.param("deadline") / speed);
+  device.connection = std::make_unique<Connection>(devices::address_of(is_here ? "127.0.0.1" : "0.0.0.0", 0),
+                                                   device.robot, devices::shapes_of(both, true));
 }
 
 // What has come: the latest rows of a table, all messages of a queue.
@@ -213,7 +210,8 @@ void drive(Device& device, const muster_tick& tick, const muster_in* in, const m
   } else {
     send_commands(device, in, now, last.silent != 0);
   }
-  if (const double late = device.connection->pace.wait(now); late > 0)
+  const double speed = device.param("speed");
+  if (const double late = device.connection->pace.wait(now, speed, deadline / speed); late > 0)
     detail::warn(device.host, "self", "the run was " + devices::seconds_text(late) + " late, and goes on from there");
   take_arrived(device, now, arrived);
   if (is_silent() || !device.connection->end.has_agreed()) device.connection->end.ask(now);

@@ -49,11 +49,8 @@ struct Status {
 // What exists while the run goes on: no state of the world.
 struct Connection {
   Connection(const devices::Address& at, const devices::RoughWire::Settings& rough, Stream random,
-             std::vector<devices::TableShape> shapes, double speed, double most_late)
-      : socket(at),
-        wire(socket, rough, random),
-        end(wire, std::move(shapes), devices::new_session()),
-        pace(clock, speed, most_late) {}
+             std::vector<devices::TableShape> shapes)
+      : socket(at), wire(socket, rough, random), end(wire, std::move(shapes), devices::new_session()), pace(clock) {}
   devices::UdpSocket socket;
   devices::RoughWire wire;
   devices::RobotEnd end;
@@ -108,10 +105,9 @@ void destroy(void* self) {
 void connect(RobotHost& robot) {
   std::vector<Port> both = robot.sensed;
   both.insert(both.end(), robot.commands.begin(), robot.commands.end());
-  const double speed = robot.param("speed");
   robot.connection = std::make_unique<Connection>(
       robot.at, devices::RoughWire::Settings{robot.param("loss"), robot.param("delay"), robot.param("jitter")},
-      robot.random, devices::shapes_of(both, false), speed, robot.param("watchdog") / speed);
+      robot.random, devices::shapes_of(both, false));
   const char* place = robot.host->text(robot.host, "self/place");
   std::fprintf(stderr, "%s: host.udp is a robot at %s\n", place ? place : "muster",
                robot.connection->socket.at().text().c_str());
@@ -136,15 +132,15 @@ void serve(RobotHost& robot, const muster_tick& tick, const muster_in* in, const
   const double now = tick.time - tick.dt;  // of what was sensed, and when the commands begin to hold
   if (!robot.connection) connect(robot);
   Connection& connection = *robot.connection;
-  if (const double late = connection.pace.wait(now); late > 0)
+  const double speed = robot.param("speed"), watchdog = robot.param("watchdog");
+  if (const double late = connection.pace.wait(now, speed, watchdog / speed); late > 0)
     detail::warn(robot.host, "self", "the run was " + devices::seconds_text(late) + " late, and goes on from there");
   connection.wire.at(now);
-  connection.end.receive(now, robot.param("watchdog"), [&](std::string_view body) {
+  connection.end.receive(now, watchdog, [&](std::string_view body) {
     connection.commands = devices::given_rows(robot.commands, robot.host, body);
   });
   const auto& end = connection.end;
-  const bool is_stopped =
-      !end.has_heard() || now - end.heard() > robot.param("watchdog") || connection.commands.empty();
+  const bool is_stopped = !end.has_heard() || now - end.heard() > watchdog || connection.commands.empty();
   const Status last = *reinterpret_cast<const Status*>(in[robot.status].data);
   tell_changes(robot, tick.index <= 1 || last.stopped != 0, is_stopped);
   for (std::size_t p = 0; p < robot.commands.size(); ++p) {

@@ -35,14 +35,16 @@ class SteadyClock : public Clock {
 // would steer it by what it no longer does.
 class Pace {
  public:
-  Pace(Clock& clock, double speed, double most) : clock_(clock), speed_(speed), most_(most) {}
-  // Returns when the clock has come to `time` of the run. Returns how late it was where the rest is not made up, else
-  // 0.
-  double wait(double time) {
+  explicit Pace(Clock& clock) : clock_(clock) {}
+  // Returns when the clock has come to `time` of the run, which is `speed` times as fast. Returns how late it was where
+  // that is more than `most` [s], and not made up; else 0.
+  double wait(double time, double speed, double most) {
     const double now = clock_.now();
-    if (!has_begun_) begin(time, now);
-    const double due = began_ + (time - time_) / speed_;
-    if (now > due + most_) {
+    if (speed != speed_) begin(speed_ == 0 ? time : last_, now);  // it may be changed in mid-run
+    speed_ = speed;
+    last_ = time;
+    const double due = began_ + (time - time_) / speed;
+    if (now > due + most) {
       begin(time, now);
       return now - due;
     }
@@ -52,13 +54,11 @@ class Pace {
 
  private:
   void begin(double time, double now) {
-    has_begun_ = true;
     began_ = now;
     time_ = time;
   }
   Clock& clock_;
-  double speed_, most_, began_ = 0, time_ = 0;
-  bool has_begun_ = false;
+  double speed_ = 0, began_ = 0, time_ = 0, last_ = 0;  // speed 0: it has not begun. last: [s] of the run
 };
 
 }  // namespace muster::devices

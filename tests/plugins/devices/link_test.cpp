@@ -201,20 +201,22 @@ struct Told : Clock {
 
 TEST(DevicePace, ATickEndsAtItsMomentAndALateRunCatchesUpUnlessItIsTooLate) {
   Told clock;
-  Pace pace(clock, 2, 0.5);
-  EXPECT_EQ(pace.wait(0), 0);
+  Pace pace(clock);
+  EXPECT_EQ(pace.wait(0, 2, 0.5), 0);
   EXPECT_EQ(clock.at, 100);
-  EXPECT_EQ(pace.wait(1), 0);
+  EXPECT_EQ(pace.wait(1, 2, 0.5), 0);
   EXPECT_EQ(clock.at, 100.5) << "twice as fast as the clock";
   clock.at += 0.25;  // a little late: no waiting until that is made up
-  EXPECT_EQ(pace.wait(1.25), 0);
+  EXPECT_EQ(pace.wait(1.25, 2, 0.5), 0);
   EXPECT_EQ(clock.at, 100.75);
-  EXPECT_EQ(pace.wait(2), 0);
+  EXPECT_EQ(pace.wait(2, 2, 0.5), 0);
   EXPECT_EQ(clock.at, 101);
   clock.at += 10;
-  EXPECT_EQ(pace.wait(2.5), 9.75) << "the run goes on from there";
-  EXPECT_EQ(pace.wait(3.5), 0);
+  EXPECT_EQ(pace.wait(2.5, 2, 0.5), 9.75) << "the run goes on from there";
+  EXPECT_EQ(pace.wait(3.5, 2, 0.5), 0);
   EXPECT_EQ(clock.at, 111.5);
+  EXPECT_EQ(pace.wait(4.5, 0.5, 0.5), 0);
+  EXPECT_EQ(clock.at, 113.5) << "slower from now on";
 }
 
 // Each datagram goes its own way, drawn from the seed: shares and delays are those that were asked for.
