@@ -79,6 +79,12 @@ inline std::string seconds_text(double seconds) {
   return std::string(digits, std::to_chars(digits, digits + sizeof digits, seconds).ptr) + " s";
 }
 
+// What `muster check` is to say of a world in which nothing is wrong.
+inline void note(const muster_host* host, const std::string& message) {
+  const char* place = host->text(host, "self/place");
+  host->event(host, ("note: " + (place ? place + std::string(": ") : "") + message).c_str());
+}
+
 // A table of the plugin's own; throws where the kernel refuses it.
 inline int own_table(const muster_host* host, const std::string& name, const std::string& columns) {
   const int claim = host->claim(host, MUSTER_WRITE, 0, ("self/" + name).c_str(), columns.c_str());

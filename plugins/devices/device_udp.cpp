@@ -230,9 +230,10 @@ int step(void* self, const muster_tick* tick, const muster_in* in, const muster_
   Device& device = *static_cast<Device*>(self);
   const bool fine = detail::guarded(device.host, [&] {
     if (tick->index == 0)
-      detail::warn(device.host, "self",
-                   "a run of this world goes at the pace of the clock on the wall, as with --real-time: the robot at " +
-                       device.robot.text() + " waits for nobody");
+      devices::note(
+          device.host,
+          "a run of this world goes at the pace of the clock on the wall, as with --real-time: the robot at " +
+              device.robot.text() + " waits for nobody");
     if (ports::is_off()) return rest(device, in, out);
     try {
       drive(device, *tick, in, out);

@@ -175,8 +175,8 @@ int step(void* self, const muster_tick* tick, const muster_in* in, const muster_
   RobotHost& robot = *static_cast<RobotHost*>(self);
   const bool fine = detail::guarded(robot.host, [&] {
     if (tick->index <= 1)
-      detail::warn(
-          robot.host, "self",
+      devices::note(
+          robot.host,
           "a run of this world goes at the pace of the clock on the wall, as with --real-time: a controller at " +
               robot.at.text() + " drives it");
     if (ports::is_off()) {

@@ -219,6 +219,7 @@ TEST(UdpDevice, WhereNobodyIsToBeWaitedForItSaysThatItGoesByTheClock) {
   here.step();
   there.step();
   ::unsetenv("MUSTER_BRIDGE");
+  EXPECT_THAT(events_of(here), HasSubstr("note: "));
   EXPECT_THAT(events_of(here), HasSubstr("a run of this world goes at the pace of the clock on the wall, as with "
                                          "--real-time: the robot at 127.0.0.1:"));
   EXPECT_THAT(events_of(there), HasSubstr("as with --real-time: a controller at 127.0.0.1:"));
