@@ -19,6 +19,16 @@ std::string columns_of(const Port& port) {
   return result;
 }
 
+// A text that may be printed; whatever else comes from outside is no name.
+std::string printable(std::string_view text, std::size_t most) {
+  const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
+  if (text.empty() || text.size() > most || !std::all_of(text.begin(), text.end(), is_plain))
+    throw Malformed("a name that is none, in a list of tables");
+  return std::string(text);
+}
+
+constexpr std::size_t most_tables = 64, most_name = 200, most_columns = 4000;  // of a list; bytes
+
 }  // namespace
 
 FrameWriter begun_datagram(Kind kind, const Stamp& stamp) {
@@ -80,13 +90,15 @@ void write_tables(FrameWriter& frame, const std::vector<TableShape>& shapes) {
 std::vector<TableShape> read_tables(std::string_view body) {
   FrameReader reader(body);
   std::vector<TableShape> result;
-  for (auto count = reader.integer<std::uint32_t>(); count > 0; --count) {
+  auto count = reader.integer<std::uint32_t>();
+  if (count > most_tables) throw Malformed("a list of " + std::to_string(count) + " tables");
+  for (; count > 0; --count) {
     TableShape shape;
     const auto is_given = reader.integer<std::uint8_t>();
     if (is_given > 1) throw Malformed("a table that is neither given nor taken");
     shape.is_given = is_given == 1;
-    shape.name = reader.text();
-    shape.columns = reader.text();
+    shape.name = printable(reader.text(), most_name);
+    shape.columns = printable(reader.text(), most_columns);
     result.push_back(std::move(shape));
   }
   if (reader.left()) throw Malformed(std::to_string(reader.left()) + " bytes too many in a list of tables");

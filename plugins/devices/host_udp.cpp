@@ -58,6 +58,7 @@ struct Connection {
   devices::Pace pace;
   std::vector<GivenRows> commands;  // the latest
   std::string told;                 // disagreement
+  int tellings = 0;
 };
 
 struct RobotHost {
@@ -115,9 +116,11 @@ void connect(RobotHost& robot) {
 
 void tell_changes(RobotHost& robot, bool was_stopped, bool is_stopped) {
   Connection& connection = *robot.connection;
+  constexpr int most_tellings = 10;  // whoever sends others at every tick fills no list of events
   if (connection.end.disagreement() != connection.told) {
     connection.told = connection.end.disagreement();
-    if (!connection.told.empty()) detail::warn(robot.host, "self", "refuses a controller: " + connection.told);
+    if (!connection.told.empty() && connection.tellings++ < most_tellings)
+      detail::warn(robot.host, "self", "refuses a controller: " + connection.told);
   }
   if (was_stopped && !is_stopped)
     robot.host->event(robot.host, ("is driven by " + connection.end.controller().text()).c_str());

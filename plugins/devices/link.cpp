@@ -11,7 +11,8 @@ using ports::FrameWriter;
 using ports::Kind;
 using ports::Malformed;
 
-constexpr std::size_t remembered = 256;  // commands of which the time of sending is known
+constexpr std::size_t remembered = 256;   // commands of which the time of sending is known
+constexpr std::size_t most_reason = 500;  // bytes of a refusal that are shown
 
 }  // namespace
 
@@ -60,7 +61,10 @@ void ControllerEnd::take(double now, const Datagram& datagram, const TakeRows& r
   const Stamp& stamp = datagram.stamp;
   if (datagram.kind == Kind::fault) {
     FrameReader reader(datagram.body);
-    throw BadInput("the robot at " + robot_.text() + " refuses: " + std::string(reader.text()));
+    std::string why(reader.text().substr(0, most_reason));
+    std::replace_if(
+        why.begin(), why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    throw BadInput("the robot at " + robot_.text() + " refuses: " + why);
   }
   if (datagram.kind == Kind::tables) {
     const auto theirs = read_tables(datagram.body);

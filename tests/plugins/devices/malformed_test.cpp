@@ -124,6 +124,30 @@ TEST(MalformedDatagrams, AreCountedByAControllerToo) {
   EXPECT_EQ(controller.refused().foreign, 1u) << "from another address";
 }
 
+// Lists of tables with bytes at random in them: no list is taken for another, and nothing of them is printed.
+TEST(MalformedDatagrams, ListsOfTablesThatAreNoneMoveNothing) {
+  const Stream random(44);
+  Given wire;
+  RobotEnd robot(wire, exchanged, 5);
+  wire.coming.push_back(asking(9));
+  robot.receive(0, 0.5, [](std::string_view) {});
+  ASSERT_TRUE(robot.has_controller());
+  const std::string whole = asking(9);
+  constexpr std::size_t stamp = 45;  // length, kind and stamp
+  for (std::uint64_t i = 0; i < 20'000; ++i) {
+    std::string wrong = whole;
+    const auto at = stamp + static_cast<std::size_t>(random.uniform(i, 0) * static_cast<double>(whole.size() - stamp));
+    wrong[at] = static_cast<char>(wrong[at] ^ static_cast<char>(1 + random.uniform(i, 1) * 255));
+    wire.coming.push_back(wrong);
+    robot.receive(1, 0.5, [](std::string_view) {});
+    for (const char c : robot.disagreement()) ASSERT_TRUE(c >= ' ' && c <= '~') << i;
+    ASSERT_LE(robot.disagreement().size(), 5000u);
+  }
+  EXPECT_EQ(robot.refused().malformed + robot.refused().foreign, 20'000u) << "each is one or the other";
+  EXPECT_TRUE(robot.has_controller()) << "the first one still drives";
+  EXPECT_EQ(robot.from_controller().session(), 9u);
+}
+
 // Rows that are none are refused by whoever takes them: the datagram is counted, and nothing is heard.
 TEST(MalformedDatagrams, RowsThatAreNoneCountToo) {
   Given wire;
