@@ -10,11 +10,23 @@
 namespace muster::cli {
 namespace {
 
+const std::string note = "note: ";
+
+// What is to be known of a world in which nothing is wrong.
+std::vector<std::string> notes_of(const Simulation& run) {
+  std::vector<std::string> result;
+  for (const auto& event : run.events()) {
+    if (event.message.starts_with(note)) result.push_back(event.message);
+  }
+  return result;
+}
+
 // All that is reported before the first tick, and warnings in it: other events of a tick are no fault of the world.
 std::vector<std::string> warnings_of(const Simulation& run) {
   static const std::string prefix = "warning: ";
   std::vector<std::string> result;
   for (const auto& event : run.events()) {
+    if (event.message.starts_with(note)) continue;
     const bool is_warning = event.message.starts_with(prefix);
     if (is_warning || event.tick == 0) result.push_back(is_warning ? event.message : prefix + event.message);
   }
@@ -38,16 +50,21 @@ int run_check(const Arguments& arguments) {
   Simulation run(read_world(path, standard()), standard(), {plugin_path(plugins), 1, {}});
   check_records(run);
   if (!run.done()) run.step();
-  const auto warnings = warnings_of(run);
+  const auto warnings = warnings_of(run), notes = notes_of(run);
   if (json) {
-    Json out = {{"world", run.world().name}, {"instances", Json::array()}, {"warnings", Json::array()}};
+    Json out = {{"world", run.world().name},
+                {"instances", Json::array()},
+                {"warnings", Json::array()},
+                {"notes", Json::array()}};
     for (const auto& instance : run.instances())
       out["instances"].push_back({{"name", instance->name()}, {"plugin", instance->plugin().id}});
     for (const auto& warning : warnings) out["warnings"].push_back(warning);
+    for (const auto& one : notes) out["notes"].push_back(one);
     fmt::print("{}\n", out.dump(2));
     return 0;
   }
   for (const auto& warning : warnings) fmt::print("{}\n", warning);
+  for (const auto& one : notes) fmt::print("{}\n", one);
   fmt::print("{}: {} instances, {} tables; {}\n", run.world().name, run.instances().size(), run.board().tables().size(),
              warnings.empty()       ? "nothing is wrong"
              : warnings.size() == 1 ? "no error, 1 warning"

@@ -5,7 +5,7 @@
 #include <muster/tables.hpp>
 
 #include "mcap/rewrite.hpp"
-#include "run_log/cdr.hpp"
+#include "run_log/tables/cdr.hpp"
 #include "run_log/ros_types.hpp"
 #include "run_log/table_log.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "run_log/cdr.hpp"
+#include "run_log/tables/cdr.hpp"
 
 namespace muster::run_log {
 namespace {

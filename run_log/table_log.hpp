@@ -8,7 +8,7 @@
 
 #include "kernel/simulation.hpp"
 #include "mcap/writer.hpp"
-#include "run_log/logged_table.hpp"
+#include "run_log/tables/logged_table.hpp"
 
 namespace muster::run_log {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "mcap/scan.hpp"
-#include "run_log/logged_table.hpp"
+#include "run_log/tables/logged_table.hpp"
 #include "text/error.hpp"
 #include "text/names.hpp"
 #include "text/text_table_writer.hpp"

@@ -1,7 +1,5 @@
 // Drives robots by a program outside, in lock step, over a socket of this computer.
-#include <cstdlib>
 #include <iterator>
-#include <string_view>
 
 #include "session.hpp"
 
@@ -35,11 +33,6 @@ constexpr auto manual =
     "answers, or another comes. Queues then get nothing. What is no frame of the format ends the run in any case.\n"
     "Where the environment has MUSTER_BRIDGE=off, as in `muster check`, it waits for nobody and commands zero.";
 
-bool is_off() {
-  const char* word = std::getenv("MUSTER_BRIDGE");
-  return word && std::string_view(word) == "off";
-}
-
 struct Bridge {
   const muster_host* host;
   std::vector<Port> ports;
@@ -57,8 +50,8 @@ void* create(const muster_host* host) {
   Bridge* made = nullptr;
   detail::guarded(host, [&] {
     const int robot = static_cast<int>(host->param(host, "robot"));
-    auto ports = bridge::claimed_ports(host, "reads", false, robot);
-    auto commands = bridge::claimed_ports(host, "writes", true, robot);
+    auto ports = bridge::claimed_ports(host, {"reads", false, "odometry"}, robot);
+    auto commands = bridge::claimed_ports(host, {"writes", true, "command"}, robot);
     if (commands.empty())
       throw BadInput("has no tables to be commanded; expected an attribute writes=\"robot/NAME/command\"");
     ports.insert(ports.end(), commands.begin(), commands.end());
@@ -74,10 +67,10 @@ int step(void* self, const muster_tick* tick, const muster_in* in, const muster_
   Bridge& bridge = *static_cast<Bridge*>(self);
   const bool fine = detail::guarded(bridge.host, [&] {
     std::vector<bridge::GivenRows> given;
-    if (!is_off()) given = bridge.session.exchange(bridge.host, *tick, in, out);
+    if (!bridge::is_off()) given = bridge.session.exchange(bridge.host, *tick, in, out);
     auto next = given.begin();
     for (const auto& port : bridge.ports) {
-      if (!port.is_command) continue;
+      if (!port.is_written) continue;
       if (next != given.end())
         next++->set(bridge.host, out[port.claim]);
       else if (bridge.silence == hold)

@@ -14,9 +14,12 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame.hpp"
+#include "ports/frame.hpp"
 
 namespace muster::bridge {
+
+using namespace ports;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;

@@ -50,7 +50,7 @@ std::string Session::tables_frame(const muster_host* host, const muster_tick& ti
   }
   frame.integer(static_cast<uint32_t>(ports_.size()));
   for (const auto& port : ports_) {
-    frame.integer<uint8_t>(port.is_command);
+    frame.integer<uint8_t>(port.is_written);
     frame.integer<uint8_t>(port.is_queue);
     frame.text(port.table);
     frame.text(port.set);
@@ -135,7 +135,7 @@ std::vector<GivenRows> Session::parsed(const std::string& frame, const muster_ho
                     std::to_string(tick.index));
   std::vector<GivenRows> result;
   for (const auto& port : ports_) {
-    if (port.is_command) result.emplace_back(reader, port, host, out[port.claim]);
+    if (port.is_written) result.emplace_back(reader, port, host, out[port.claim].rows);
   }
   if (reader.left()) throw Malformed(std::to_string(reader.left()) + " bytes too many in a frame of commands");
   return result;
@@ -157,7 +157,7 @@ std::vector<GivenRows> Session::exchange(const muster_host* host, const muster_t
     state.integer(tick.index);
     state.real(tick.time);
     for (const auto& port : ports_) {
-      if (!port.is_command) write_rows(state, port, host, in[port.claim]);
+      if (!port.is_written) write_rows(state, port, host, in[port.claim]);
     }
     peer_->send(news(host) + state.take(), settings_.timeout);
     owed_ = tick.index;

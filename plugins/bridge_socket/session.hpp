@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "peer.hpp"
-#include "ports.hpp"
+#include "ports/ports.hpp"
 
 namespace muster::bridge {
+
+using namespace ports;
 
 struct SessionSettings {
   uint16_t port = 0;

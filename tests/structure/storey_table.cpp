@@ -14,12 +14,15 @@ const Storeys& storeys() {
       {"scene", {}},
       {"description", {"plugin_api"}},
       {"medium", {"plugin_api"}},
+      {"ports", {"plugin_api"}},
       {"plotting", {"text"}},
 
       // A plugin includes its own folder and the headers beside all folders of plugins; never kernel/ or loader/.
       {"plugins", {"plugin_api", "scene", "description"}},
       {"plugins/*", {"plugin_api", "scene", "description", "medium", "plugins"}},
       {"plugins/causes", {"plugin_api", "scene", "plugins", "plugins/radio_fading"}},
+      // Programs outside, and logs.
+      {"plugins/bridge_socket", {"plugin_api", "ports"}},
 
       // Domain-free: columns, sites, groups and blocks.
       {"diagnosis/inference/thresholds", {}},
@@ -73,7 +76,10 @@ const Storeys& storeys() {
 
       // The container of logs, and a run in it.
       {"mcap", {"text"}},
-      {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap"}},
+      {"run_log/tables", {"text", "mcap"}},
+      {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log/tables"}},
+      // In the place of a robot's hardware.
+      {"plugins/devices", {"plugin_api", "text", "ports", "mcap", "run_log/tables"}},
 
       // Shares no code with what it grades.
       {"exam", {}},

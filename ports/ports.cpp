@@ -1,11 +1,12 @@
-#include "ports.hpp"
+#include "ports/ports.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <muster/sets.hpp>
 
-namespace muster::bridge {
+namespace muster::ports {
 namespace {
 
 // One word of a table's columns, "range[m]*682?"; the kernel has checked the form.
@@ -79,12 +80,12 @@ Known known_table(const std::string& set, const std::string& quantity) {
   return {};
 }
 
-Port claimed(const muster_host* host, const Word& word, const std::string& attribute, bool is_command, int robot) {
+Port claimed(const muster_host* host, const Word& word, const Asked& asked, int robot) {
+  const std::string attribute = asked.attribute;
   const auto first = word.table.find('/'), last = word.table.rfind('/');
   if (first == word.table.npos || first == last)
     throw BadInput("attribute \"" + attribute + "\": \"" + word.table +
-                   "\" is no table; expected set/row/quantity, such as robot/{robot}/" +
-                   (is_command ? "command" : "odometry"));
+                   "\" is no table; expected set/row/quantity, such as robot/{robot}/" + asked.example);
   const std::string set = word.table.substr(0, first), row = word.table.substr(first + 1, last - first - 1);
   const Known known = known_table(set, word.table.substr(last + 1));
   const std::string columns = word.columns.empty() && known.quantity ? known.quantity->columns : word.columns;
@@ -92,21 +93,28 @@ Port claimed(const muster_host* host, const Word& word, const std::string& attri
     throw BadInput("attribute \"" + attribute + "\": \"" + word.table +
                    "\" is no standard table; expected its columns behind it, such as " + word.table + "(x[m] y[m])");
   Port port;
-  port.is_command = is_command;
+  port.is_written = asked.is_written;
   port.is_queue = known.set && known.set->kind == SetKind::queue;
   port.has_one_owner = port.is_queue && row != "*";
   if (row == "*" && !port.is_queue) port.set = set;
-  port.claim = host->claim(host, is_command ? MUSTER_WRITE : MUSTER_READ, 0, word.table.c_str(), columns.c_str());
+  port.claim = host->claim(host, asked.is_written ? MUSTER_WRITE : MUSTER_READ, asked.flags, word.table.c_str(),
+                           columns.c_str());
   if (port.claim < 0) throw std::runtime_error("");  // the kernel has the message
-  port.table = word.table;
-  if (row == "{robot}" && robot >= 0)
-    port.table = set + '/' + host->row_name(host, "robot", static_cast<uint32_t>(robot)) + word.table.substr(last);
+  port.table = port.general = word.table;
+  const std::string own = robot >= 0 ? host->row_name(host, "robot", static_cast<uint32_t>(robot)) : "";
+  if (row == "{robot}" && robot >= 0) port.table = set + '/' + own + word.table.substr(last);
+  if (row == own && robot >= 0) port.general = set + "/{robot}" + word.table.substr(last);
   for (std::size_t at = 0; at < columns.size();) {
     const auto end = std::min(columns.find(' ', at), columns.size());
     if (end > at) add_columns(std::string_view(columns).substr(at, end - at), port.columns);
     at = end + 1;
   }
   return port;
+}
+
+// True for a column whose cells mean rows of another set. That of a queue's one owner is known without it.
+bool is_named(const Port& port, uint32_t column) {
+  return !port.columns[column].reference.empty() && !(column == 0 && port.has_one_owner);
 }
 
 std::size_t byte_columns(const Port& port) {
@@ -116,12 +124,17 @@ std::size_t byte_columns(const Port& port) {
 
 }  // namespace
 
-std::vector<Port> claimed_ports(const muster_host* host, const char* attribute, bool is_command, int robot) {
-  const char* text = host->text(host, attribute);
+std::vector<Port> claimed_ports(const muster_host* host, const Asked& asked, int robot) {
+  const char* text = host->text(host, asked.attribute);
   std::vector<Port> result;
-  for (const auto& word : words_of(text ? text : "", attribute))
-    result.push_back(claimed(host, word, attribute, is_command, robot));
+  for (const auto& word : words_of(text ? text : "", asked.attribute))
+    result.push_back(claimed(host, word, asked, robot));
   return result;
+}
+
+bool is_off() {
+  const char* word = std::getenv("MUSTER_BRIDGE");
+  return word && std::string_view(word) == "off";
 }
 
 std::vector<std::string> sets_of(const std::vector<Port>& ports) {
@@ -136,7 +149,8 @@ std::vector<std::string> sets_of(const std::vector<Port>& ports) {
   return result;
 }
 
-void write_rows(FrameWriter& frame, const Port& port, const muster_host* host, const muster_in& in) {
+void write_rows(FrameWriter& frame, const Port& port, const muster_host* host, const muster_in& in,
+                References references) {
   frame.integer(in.rows);
   for (std::size_t i = 0; i < std::size_t{in.rows} * in.cols; ++i) frame.real(in.data[i]);
   for (uint32_t r = 0; byte_columns(port) && r < in.rows; ++r) {
@@ -147,12 +161,22 @@ void write_rows(FrameWriter& frame, const Port& port, const muster_host* host, c
       frame.text({reinterpret_cast<const char*>(data), static_cast<std::size_t>(count)});
     }
   }
+  for (uint32_t r = 0; references == References::names && r < in.rows; ++r) {
+    for (uint32_t c = 0; c < in.cols; ++c) {
+      if (!is_named(port, c)) continue;
+      const double row = in.data[std::size_t{r} * in.cols + c];
+      const char* name =
+          row >= 0 ? host->row_name(host, port.columns[c].reference.c_str(), static_cast<uint32_t>(row)) : nullptr;
+      frame.text(name ? name : "");
+    }
+  }
 }
 
-GivenRows::GivenRows(FrameReader& frame, const Port& port, const muster_host* host, const muster_out& out)
+GivenRows::GivenRows(FrameReader& frame, const Port& port, const muster_host* host, uint32_t rows_expected,
+                     References references)
     : port_(&port), rows_(frame.integer<uint32_t>()) {
-  if (!port.is_queue && rows_ != out.rows)
-    throw Malformed(std::to_string(rows_) + " rows of " + port.table + "; expected " + std::to_string(out.rows));
+  if (!port.is_queue && rows_ != rows_expected)
+    throw Malformed(std::to_string(rows_) + " rows of " + port.table + "; expected " + std::to_string(rows_expected));
   const std::size_t count = std::size_t{rows_} * port.columns.size();
   if (count > frame.left() / sizeof(double))
     throw Malformed(std::to_string(rows_) + " rows of " + port.table + " in a frame that ends before them");
@@ -162,7 +186,37 @@ GivenRows::GivenRows(FrameReader& frame, const Port& port, const muster_host* ho
     cells_.push_back(std::isnan(value) ? null() : value);  // one bit pattern is null; clients may have others
   }
   for (std::size_t i = 0; i < rows_ * byte_columns(port); ++i) bytes_.emplace_back(frame.text());
+  if (references == References::names) name_rows(frame, host);
   check(host);
+}
+
+// Cells that mean rows of other sets: the rows of those names here.
+void GivenRows::name_rows(FrameReader& frame, const muster_host* host) {
+  const std::size_t width = port_->columns.size();
+  std::vector<uint32_t> strangers;
+  for (uint32_t r = 0; r < rows_; ++r) {
+    for (uint32_t c = 0; c < width; ++c) {
+      if (!is_named(*port_, c)) continue;
+      const std::string name(frame.text()), set = port_->columns[c].reference;
+      double& cell = cells_[r * width + c] = null();
+      for (uint32_t row = 0; row < host->rows(host, set.c_str()); ++row) {
+        if (host->row_name(host, set.c_str(), row) == name) cell = row;
+      }
+      if (!std::isnan(cell) || (name.empty() && port_->columns[c].nullable)) continue;
+      if (!port_->is_queue) throw Malformed("a " + set + " that this world does not have, in " + port_->table);
+      if (strangers.empty() || strangers.back() != r) strangers.push_back(r);
+    }
+  }
+  for (auto r = strangers.rbegin(); r != strangers.rend(); ++r) leave_out(*r);
+}
+
+void GivenRows::leave_out(uint32_t row) {
+  const auto width = static_cast<std::ptrdiff_t>(port_->columns.size());
+  const auto texts = static_cast<std::ptrdiff_t>(byte_columns(*port_));
+  cells_.erase(cells_.begin() + row * width, cells_.begin() + (row + 1) * width);
+  bytes_.erase(bytes_.begin() + row * texts, bytes_.begin() + (row + 1) * texts);
+  --rows_;
+  ++left_out_;
 }
 
 void GivenRows::check(const muster_host* host) const {
@@ -170,7 +224,7 @@ void GivenRows::check(const muster_host* host) const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const PortColumn& column = columns[i % columns.size()];
     const bool is_owner = port_->has_one_owner && i % columns.size() == 0;
-    if (column.bytes || is_owner) continue;  // the bridge fills these
+    if (column.bytes || is_owner) continue;  // set() fills these
     const double value = cells_[i];
     const auto refuse = [&](const std::string& found, const std::string& expected) {
       throw Malformed(found + " as " + column.title() + " of " + port_->table + "; expected " + expected);
@@ -189,14 +243,15 @@ void GivenRows::check(const muster_host* host) const {
   }
 }
 
-void GivenRows::set(const muster_host* host, const muster_out& out) const {
+void GivenRows::set(const muster_host* host, const muster_out& out, uint32_t first) const {
   const std::size_t width = port_->columns.size();
   double* rows = port_->is_queue ? rows_ ? host->append(host, port_->claim, rows_) : nullptr : out.data;
   auto bytes = bytes_.begin();
   for (uint32_t r = 0; r < rows_; ++r) {
     for (uint32_t c = 0; c < width; ++c) {
       if (port_->columns[c].bytes) {
-        host->put_bytes(host, port_->claim, r, c, reinterpret_cast<const uint8_t*>(bytes->data()), bytes->size());
+        host->put_bytes(host, port_->claim, first + r, c, reinterpret_cast<const uint8_t*>(bytes->data()),
+                        bytes->size());
         ++bytes;
       } else if (!(c == 0 && port_->has_one_owner)) {
         rows[r * width + c] = cells_[r * width + c];
@@ -215,4 +270,4 @@ void set_last(const Port& port, const muster_in& last, const muster_out& out) {
   if (!port.is_queue) std::copy_n(last.data, std::size_t{out.rows} * out.cols, out.data);
 }
 
-}  // namespace muster::bridge
+}  // namespace muster::ports

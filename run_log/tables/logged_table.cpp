@@ -1,9 +1,10 @@
-#include "run_log/logged_table.hpp"
+#include "run_log/tables/logged_table.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <sstream>
 
-#include "run_log/cdr.hpp"
+#include "run_log/tables/cdr.hpp"
 
 namespace muster::run_log {
 namespace {
@@ -48,12 +49,6 @@ Field field_of(const std::string& word) {
   return result;
 }
 
-std::string with_names(const std::string& table, const std::string& names) {
-  const auto star = table.find('*');
-  if (star == std::string::npos) return table;
-  return table.substr(0, star) + names + table.substr(star + 1);
-}
-
 void read_row(const LoggedTable& table, CdrReader& from, const TakeReal& take) {
   static thread_local std::vector<double> reals;
   reals.clear();
@@ -74,7 +69,27 @@ void read_row(const LoggedTable& table, CdrReader& from, const TakeReal& take) {
   }
 }
 
+// A line of a definition, "float64 x  # [m]"; null where it is none of a field.
+std::optional<Field> field_of_definition(const std::string& line) {
+  std::istringstream words(line);
+  std::string type, unit;
+  Field field;
+  if (!(words >> type >> field.name)) return {};
+  const auto found = std::find(std::begin(types), std::end(types), type);
+  if (found == std::end(types)) return {};
+  field.kind = static_cast<Field::Kind>(found - std::begin(types));
+  if (words >> type >> unit && type == "#" && unit.size() > 2 && unit.front() == '[' && unit.back() == ']')
+    field.unit = unit.substr(1, unit.size() - 2);
+  return field;
+}
+
 }  // namespace
+
+std::string with_names(const std::string& table, const std::string& names) {
+  const auto star = table.find('*');
+  if (star == std::string::npos) return table;
+  return table.substr(0, star) + names + table.substr(star + 1);
+}
 
 std::string topic_of(const LoggedTable& table) {
   if (table.layout == Layout::row) return '/' + with_names(table.table, table.row);
@@ -123,6 +138,42 @@ std::optional<LoggedTable> table_of(const mcap::Channel& channel) {
       found->second, text("muster.row"), static_cast<Layout>(place_of(text("muster.layout"), layouts, "a layout")), {}};
   std::istringstream words(text("muster.fields"));
   for (std::string word; words >> word;) result.fields.push_back(field_of(word));
+  return result;
+}
+
+std::optional<LoggedTable> table_of(const mcap::Channel& channel, const mcap::Schema& schema) {
+  if (auto whole = table_of(channel)) return whole;
+  constexpr std::string_view before = "# ", behind = " of a run of muster";
+  std::istringstream lines(schema.data);
+  std::string line;
+  if (!schema.name.starts_with("muster/msg/") || schema.encoding != "ros2msg" || !std::getline(lines, line)) return {};
+  if (!line.starts_with(before) || !line.ends_with(behind) || line.size() <= before.size() + behind.size()) return {};
+  LoggedTable result{line.substr(before.size(), line.size() - before.size() - behind.size()), "", Layout::message, {}};
+  while (std::getline(lines, line)) {
+    if (line.ends_with("[] rows")) result.layout = Layout::rows;
+    if (auto field = field_of_definition(line)) result.fields.push_back(std::move(*field));
+  }
+  if (result.layout == Layout::rows || channel.topic == topic_of(result)) return result;
+  const auto star = result.table.find('*');  // "/robot/leader/pose" of "robot/*/pose"
+  const std::string head = '/' + result.table.substr(0, star), tail = result.table.substr(star + 1);
+  if (star == std::string::npos || !channel.topic.starts_with(head) || !channel.topic.ends_with(tail) ||
+      channel.topic.size() <= head.size() + tail.size())
+    return {};
+  result.row = channel.topic.substr(head.size(), channel.topic.size() - head.size() - tail.size());
+  result.layout = Layout::row;
+  return result;
+}
+
+std::vector<FieldValue> values_of(const LoggedTable& table, std::string_view data) {
+  CdrReader from(data);
+  std::vector<FieldValue> result;
+  for (const Field& field : table.fields) {
+    result.emplace_back();
+    if (field.kind == Field::Kind::real)
+      result.back().real = from.real();
+    else
+      result.back().text = field.kind == Field::Kind::bytes ? from.bytes() : from.text();
+  }
   return result;
 }
 

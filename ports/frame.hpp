@@ -1,5 +1,5 @@
-// Frames of the bridge: a length, a kind, a body; little endian whatever the computer. docs/reference/bridge_format.md
-// defines them; bridge/ holds clients.
+// Frames: a length, a kind, a body; little endian whatever the computer. docs/reference/bridge_format.md defines those
+// of the bridge, whose clients are in bridge/; docs/reference/datagram_format.md those of devices.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace muster::bridge {
+namespace muster::ports {
 
 constexpr std::string_view magic = "MUSTERB1";          // of the format, with its revision
 constexpr uint32_t most_bytes = 64u << 20;              // of a frame from a client
@@ -82,4 +82,4 @@ class FrameReader {
   std::string_view rest_;
 };
 
-}  // namespace muster::bridge
+}  // namespace muster::ports

@@ -61,12 +61,14 @@ class CdrReader {
       throw mcap::Malformed(0, "a message in another encoding than little-endian CDR");
   }
 
-  double real() {
-    align(8);
-    double value;
-    std::memcpy(&value, from_.bytes(8, "a number").data(), 8);
+  template <class Number>
+  Number number() {
+    align(sizeof(Number));
+    Number value;
+    std::memcpy(&value, from_.bytes(sizeof value, "a number").data(), sizeof value);
     return value;
   }
+  double real() { return number<double>(); }
   std::uint32_t count(const char* what = "a length") {
     align(4);
     return from_.number(what);

@@ -37,6 +37,9 @@ struct LoggedTable {
   bool operator==(const LoggedTable&) const = default;
 };
 
+// The table with the row's name in place of the star: "robot/leader/pose".
+std::string with_names(const std::string& table, const std::string& names);
+
 // "/robot/leader/pose", "/link/rssi"
 std::string topic_of(const LoggedTable& table);
 // "muster/msg/RobotPose"
@@ -47,6 +50,16 @@ mcap::Texts metadata_of(const LoggedTable& table);
 
 // Null where the channel is none of muster's tables. Throws mcap::Malformed where its metadata are damaged.
 std::optional<LoggedTable> table_of(const mcap::Channel& channel);
+// As above where a program of ROS 2 has recorded the topic anew, and kept of muster's metadata the definition alone.
+std::optional<LoggedTable> table_of(const mcap::Channel& channel, const mcap::Schema& schema);
+
+// A field of one message: the number, or a name, or bytes. The text is a view of the message.
+struct FieldValue {
+  double real = 0;
+  std::string_view text;
+};
+// Of a message of one row (Layout::row or Layout::message), in the order of the fields. Throws mcap::Malformed.
+std::vector<FieldValue> values_of(const LoggedTable& table, std::string_view data);
 
 // One row's numbers: `name` is the table with the row's names in place of the star, "link/base/rover/rssi".
 using TakeReal = std::function<void(const std::string& name, const Field& field, double value)>;
