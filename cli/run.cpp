@@ -47,6 +47,10 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--port", words.view_at.port, "with --view: its port; by default one that is free").within(0, 65535);
   line.option("--address", words.view_at.address, "with --view: another address than 127.0.0.1; needs --token");
   line.option("--token", words.view_at.token, "with --view: a word without which the page is not given");
+  line.flag("--paused", words.view_at.is_paused, "with --view: the run begins paused");
+  line.option("--origin", words.view_at.origins,
+              "with --view: a site whose page may watch, such as https://app.foxglove.dev")
+      .one_word_each();
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
 }
 
@@ -214,7 +218,7 @@ int run_world(RunWords& words) {
   std::optional<Pacing> pacing;
   if (words.view) {
     const auto so_far = [&] { return record->so_far(run, outcome_of(run)); };
-    view.emplace(words.view_at, so_far, run.world().ticks, *speed), view->wait_for_reader();
+    view.emplace(words.view_at, run, records, so_far, *speed), view->wait_for_reader();
   }
   if (speed && !words.expected) pacing.emplace(view ? static_cast<WallClock&>(*view) : clock, *speed, run.time());
   const double began_at = run.time();
@@ -240,7 +244,7 @@ int run_world(RunWords& words) {
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
-      if (view && !view->is_due(*pacing, run.time())) break;
+      if (view && !view->is_due(*pacing)) break;
       run.step();
       if (record) record->write(run), pictures->look(run);
       if (log) log->write(run);
@@ -248,7 +252,7 @@ int run_world(RunWords& words) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
       }
-      if (view) view->after_tick(run.tick());
+      if (view) view->after_tick();
       if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
     }
@@ -260,7 +264,7 @@ int run_world(RunWords& words) {
   auto files = finish();
   if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
     fmt::print(stderr, "muster: warning: {}\n", late);
-  if (view) view->finish(run.tick());
+  if (view) view->finish();
   if (pictures && !unnamed) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }

@@ -74,6 +74,8 @@ const Storeys& storeys() {
       // The container of logs, and a run in it.
       {"mcap", {"text"}},
       {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap"}},
+      // A run for those who watch and drive it as it goes.
+      {"live", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log"}},
 
       // Shares no code with what it grades.
       {"exam", {}},
@@ -81,7 +83,7 @@ const Storeys& storeys() {
       {"bridge", {}},
       {"cli",
        {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer", "mcap",
-        "run_log"}},
+        "run_log", "live"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;
