@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "installation.hpp"
 #include "run_log/table_log.hpp"
@@ -26,60 +27,29 @@ live::HttpResponse plain(int status, const std::string& words) {
   return {status, "text/plain; charset=utf-8", words + '\n'};
 }
 
-live::Foxglove::Run shown(Simulation& run) {
-  const auto parameters = [&run] {
-    std::vector<live::Foxglove::Parameter> result;
-    for (const auto& one : run.parameters()) result.push_back({one.path, one.value});
-    return result;
-  };
-  const auto set_parameter = [&run](const std::string& path, double value) {
-    run.set_parameter(path, value);
-    run.note("parameter " + quote(path) + " set to " + print_real(value));
-  };
-  return {"muster: " + run.world().name,
-          {{"world", run.world().name},
-           {"seed", std::to_string(run.world().seed)},
-           {"dt", print_real(run.world().dt)},
-           {"version", MUSTER_VERSION}},
-          parameters,
-          set_parameter};
-}
-
 }  // namespace
 
-LiveView::LiveView(const ViewSettings& settings, Simulation& run, const std::vector<RecordDeclaration>& records,
-                   Record record, double speed)
+LiveView::LiveView(const ViewSettings& settings, const std::vector<RecordDeclaration>& records, double speed)
     : settings_(settings),
-      run_(run),
       records_(records),
-      record_(std::move(record)),
       clock_(interrupted),
-      foxglove_(shown(run)),
-      messages_(run, records_, foxglove_),
+      interfaces_(*this),
+      foxglove_(shown()),
       server_(
           settings.address, static_cast<uint16_t>(settings.port),
           {[this](const auto& request) { return refusal(request); },
-           [this](const auto& request, const auto& reply) { reply(answer(request)); }, live::Foxglove::subprotocols()},
+           [this](const auto& request, const auto& reply) { handle(request, reply); }, live::Foxglove::subprotocols()},
           foxglove_),
       speed_(speed),
-      is_paused_(settings.is_paused) {
+      is_paused_(settings.is_paused),
+      is_begun_(settings.is_paused) {
   if (settings.address.rfind("127.", 0) != 0 && settings.token.empty())
     throw Error(Exit::invalid_input, "--address: " + settings.address +
                                          " can be reached from other computers; expected --token WORD beside it");
-  write();
 }
 
-void LiveView::write() {
-  foxglove_.begin(run_log::log_time(run_.time()));
-  messages_.write(run_);
-}
-
-void LiveView::sleep_until(double moment) {
-  for (double left = moment - now(); left > 0 && !interrupted() && !is_changed_; left = moment - now())
-    server_.serve(std::min(left, patience));
-}
-
-void LiveView::wait_for_reader() {
+// Once the world is known to be sound.
+void LiveView::announce() const {
   const std::string at = fmt::format("{}:{}/{}", settings_.address, server_.port(),
                                      settings_.token.empty() ? "" : "?token=" + settings_.token);
   if (const std::string why = viewer::why_no_page(installation().parts); why.empty())
@@ -88,26 +58,134 @@ void LiveView::wait_for_reader() {
     fmt::print(stderr, "muster: note: there is no page for browsers: {}\nmuster: open", why);
   fmt::print(stderr, " ws://{} in Foxglove. {}\n", at,
              is_paused_ ? "The run is paused." : "The run begins when somebody watches.");
-  while (!is_paused_ && !is_opened_ && !foxglove_.is_watched() && !interrupted()) server_.serve(patience);
+}
+
+live::Foxglove::Run LiveView::shown() {
+  const auto parameters = [this] {
+    std::vector<live::Foxglove::Parameter> result;
+    for (const auto& one : run_->parameters()) result.push_back({one.path, one.value});
+    return result;
+  };
+  const auto set_parameter = [this](const std::string& path, double value) {
+    run_->set_parameter(path, value);
+    run_->note("parameter " + quote(path) + " is set to " + print_real(value));
+  };
+  const auto metadata = [this] {
+    return std::map<std::string, std::string>{{"world", run_->world().name},
+                                              {"seed", std::to_string(run_->world().seed)},
+                                              {"dt", print_real(run_->world().dt)},
+                                              {"version", MUSTER_VERSION}};
+  };
+  return {"muster", metadata, parameters, set_parameter, &interfaces_};
+}
+
+void LiveView::watch(Simulation& run, Record record) {
+  if (!run_) announce();
+  run_ = &run;
+  record_ = std::move(record);
+  steps_ = 0;
+  wants_anew_ = is_over_ = has_all_ = false;
+  interfaces_.forget_spawned();
+  foxglove_.restart();
+  messages_.emplace(run, records_, foxglove_);
+  write();
+  foxglove_.settle();
+  if (anew_done_) std::exchange(anew_done_, {})("");
+}
+
+void LiveView::write() {
+  foxglove_.begin(run_log::log_time(run_->time()));
+  messages_->write(*run_);
+}
+
+// Steps of a run that is paused are not paced.
+void LiveView::sleep_until(double moment) {
+  for (double left = moment - now(); left > 0 && goes_on() && !is_changed_ && !is_paused_; left = moment - now())
+    server_.serve(std::min(left, patience));
+}
+
+bool LiveView::goes_on() const { return !wants_anew_ && !wants_quit_ && !interrupted(); }
+
+void LiveView::wait_for_reader() {
+  while (!is_begun_ && goes_on()) {
+    server_.serve(patience);
+    if (foxglove_.is_watched() && !is_stopped_) is_begun_ = true;
+  }
 }
 
 bool LiveView::is_due(Pacing& pacing) {
   server_.serve(0);
   const bool was_paused = is_paused_;
-  while (is_paused_ && steps_ == 0 && !interrupted()) server_.serve(patience);
+  while (is_paused_ && steps_ == 0 && goes_on()) server_.serve(patience);
   if (steps_ > 0) --steps_;
-  if (was_paused || is_changed_) pacing.restart(speed_, run_.time());
+  if (was_paused || is_changed_) pacing.restart(speed_, run_->time());
   is_changed_ = false;
-  return !interrupted();
+  return goes_on();
 }
 
-void LiveView::after_tick() { write(); }
+void LiveView::after_tick() {
+  write();
+  if (steps_ == 0) end_step("");
+}
+
+void LiveView::end_step(const std::string& fault) {
+  if (step_done_) std::exchange(step_done_, {})(fault);
+}
 
 void LiveView::finish() {
   is_over_ = true;
-  while (is_opened_ && !has_all_ && !interrupted()) server_.serve(patience);
+  steps_ = 0;
+  end_step(wants_anew_ ? "the run was reset meanwhile" : "the run has ended");
+  if (is_driven_ && goes_on()) {
+    fmt::print(stderr, "muster: note: the run is at its end and waits for ResetSimulation, or STATE_QUITTING\n");
+    while (goes_on()) server_.serve(patience);
+  }
+  while (is_opened_ && !has_all_ && goes_on()) server_.serve(patience);
+  if (wants_anew_) return;
   server_.close(parting);
-  if (is_opened_) server_.serve(patience);  // the last answer goes out
+  if (is_opened_ || is_driven_) server_.serve(patience);  // the last answer goes out
+}
+
+// ---- What clients want ----
+
+live::RunState LiveView::state() const {
+  if (wants_quit_) return live::RunState::quitting;
+  if (!is_begun_) return live::RunState::stopped;
+  return is_paused_ || is_over_ ? live::RunState::paused : live::RunState::playing;
+}
+
+void LiveView::set_state(live::RunState state, Done done) {
+  is_driven_ = true;
+  if (state == live::RunState::stopped) {
+    is_begun_ = is_paused_ = false;
+    is_stopped_ = wants_anew_ = true;
+    anew_done_ = std::move(done);
+    return changed();
+  }
+  if (state == live::RunState::quitting) {
+    wants_quit_ = true;
+  } else {
+    is_begun_ = true;
+    is_paused_ = state == live::RunState::paused;
+  }
+  changed();
+  done("");
+}
+
+void LiveView::step(std::uint64_t ticks, Done done) {
+  if (step_done_) return done("other steps are under way");
+  is_driven_ = true;
+  if (ticks == 0) return done("");
+  steps_ = ticks;
+  step_done_ = std::move(done);
+  changed();
+}
+
+void LiveView::reset(Done done) {
+  if (anew_done_) return done("another reset is under way");
+  is_driven_ = wants_anew_ = true;
+  anew_done_ = std::move(done);
+  changed();
 }
 
 void LiveView::changed() {
@@ -115,9 +193,9 @@ void LiveView::changed() {
   server_.wake();
 }
 
-std::string LiveView::state() const {
-  return Json{{"tick", run_.tick()},
-              {"ticks", run_.world().ticks},
+std::string LiveView::state_text() const {
+  return Json{{"tick", run_->tick()},
+              {"ticks", run_->world().ticks},
               {"paused", is_paused_},
               {"speed", speed_},
               {"over", is_over_}}
@@ -177,15 +255,26 @@ live::HttpResponse LiveView::control(const live::HttpRequest& request) {
     } else if (name != "token") {
       return plain(400, name + ": expected paused=true or false, step=1, or speed=NUMBER");
     }
+    if (name == "paused" || name == "step") is_begun_ = true;
     changed();
   }
-  return {200, "application/json", state()};
+  return {200, "application/json", state_text()};
+}
+
+void LiveView::handle(const live::HttpRequest& request, const live::Reply& reply) {
+  static const std::string services = "/simulation_interfaces/";
+  if (!request.path.starts_with(services)) return reply(answer(request));
+  if (request.method != "POST") return reply(plain(405, "expected POST, with the request as JSON"));
+  interfaces_.call(request.path.substr(services.size()), request.body, [reply](const live::ServiceAnswer& given) {
+    if (given.fault.empty()) return reply({200, "application/json", given.payload + '\n'});
+    reply({400, "application/json", Json{{"error", given.fault}}.dump() + '\n'});
+  });
 }
 
 live::HttpResponse LiveView::answer(const live::HttpRequest& request) {
   if (request.path == "/control") return control(request);
   if (request.method != "GET") return plain(405, "expected GET");
-  if (request.path == "/state") return {200, "application/json", state()};
+  if (request.path == "/state") return {200, "application/json", state_text()};
   if (request.path == "/record") {
     has_all_ = is_over_;
     return {200, "text/plain", viewer::base64(viewer::gzipped(viewer::payload_of(record_(), most_numbers).container))};
@@ -193,6 +282,7 @@ live::HttpResponse LiveView::answer(const live::HttpRequest& request) {
   if (request.path != "/") return plain(404, "there is no such page");
   if (const std::string why = viewer::why_no_page(installation().parts); !why.empty()) return plain(404, why);
   is_opened_ = true;
+  is_begun_ |= !is_stopped_;
   server_.wake();
   return {200, "text/html; charset=utf-8", viewer::live_page(record_(), installation().parts, most_numbers)};
 }

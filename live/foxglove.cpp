@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "live/ros_value.hpp"
 #include "mcap/rewrite.hpp"
 #include "text/error.hpp"
 #include "text/names.hpp"
 
 namespace muster::live {
 namespace {
-
-using Value = nlohmann::ordered_json;
 
 enum class Level { info, warning, error };
 enum ServerOpcode : std::uint8_t { message_data = 1, time_data, service_response };
@@ -190,7 +188,7 @@ void Foxglove::opened(Client& client) {
                 {"name", run_.name},
                 {"capabilities", capabilities},
                 {"supportedEncodings", {"cdr", "json"}},
-                {"metadata", run_.metadata},
+                {"metadata", run_.metadata()},
                 {"sessionId", session_}});
   std::vector<std::uint16_t> there;
   for (const auto& [topic, number] : by_topic_) there.push_back(number);

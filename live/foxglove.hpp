@@ -24,7 +24,7 @@ class Foxglove : public mcap::Sink, public Listener {
   // What clients may ask of the run.
   struct Run {
     std::string name;
-    std::map<std::string, std::string> metadata;
+    std::function<std::map<std::string, std::string>()> metadata;
     std::function<std::vector<Parameter>()> parameters;
     std::function<void(const std::string& name, double value)> set_parameter;  // throws Error
     Services* services = nullptr;

@@ -127,7 +127,7 @@ async function check_malformed() {
   await said(Buffer.from([]), /without a byte/);
   await said(Buffer.from([9, 1]), /unknown opcode 9/);
   await said(Buffer.from([1, 0, 0, 0, 0]), /clientPublish/);
-  await said(Buffer.from([2, 0, 0]), /ends before/);
+  await said(Buffer.from([2, 0, 0]), /of which 2 are left/);
 
   const ends = async (bytes, code, words) => {
     const other = connected(run.address);

@@ -8,7 +8,7 @@ import {dirname, join} from 'node:path';
 
 export const [muster, world, folder] = process.argv.slice(2);
 const packages = join(dirname(muster), 'viewer', 'npm', 'node_modules');
-const missing = ['@foxglove/ws-protocol', 'ws', '@mcap/core', 'fzstd'].filter((name) => !existsSync(join(packages, name)));
+const missing = ['@foxglove/ws-protocol', 'ws', '@mcap/core', 'fzstd', '@foxglove/rosmsg', '@foxglove/rosmsg2-serialization'].filter((name) => !existsSync(join(packages, name)));
 if (missing.length > 0) {
   console.log(`skipped: ${packages} has no ${missing.join(', ')}; scripts/viewer installs them where the npm registry is in reach`);
   process.exit(77);
@@ -18,6 +18,7 @@ export const {FoxgloveClient} = require('@foxglove/ws-protocol');
 export const WebSocket = require('ws');
 const {McapStreamReader} = require('@mcap/core');
 const {decompress} = require('fzstd');
+export const needed = {...require('@foxglove/rosmsg'), ...require('@foxglove/rosmsg2-serialization')};
 
 let failures = 0;
 export function expect(is_so, words) {
