@@ -231,8 +231,11 @@ void Simulation::set_row(const std::string& name, const std::vector<double>& val
     refuse(std::to_string(values.size()) + " values; expected " + std::to_string(view.cols()) + ": " +
            view.table->columns().text());
   for (std::size_t c = 0; c < values.size(); ++c) {
-    if (view.table->columns()[c].bytes) refuse("bytes cannot be set");
-    if (!std::isfinite(values[c])) refuse("the value of " + view.table->columns()[c].name + " is not finite");
+    const Column& column = view.table->columns()[c];
+    if (column.bytes) refuse("bytes cannot be set");
+    const bool may_be = std::isfinite(values[c]) || (column.nullable && std::isnan(values[c])) ||
+                        (column.infinite && std::isinf(values[c]));
+    if (!may_be) refuse("the value of " + column.name + " is not finite");
   }
   std::string whole = view.table->name();
   whole = whole.substr(0, whole.find('@'));

@@ -1,7 +1,6 @@
 // Entities of simulation_interfaces: the robots of a run.
 #include <algorithm>
 #include <cmath>
-#include <muster/tables.hpp>
 #include <regex>
 
 #include "live/simulation_interfaces.hpp"
@@ -48,6 +47,19 @@ std::string printed(const std::vector<double>& values) {
 bool is_world(const Value& header) {
   const auto frame = header["frame_id"].get<std::string>();
   return frame.empty() || frame == "world";
+}
+
+// All state of a new robot begins as it does in a world file, and only its model is that of the robot of which it is a
+// copy: the table that physics keeps it in, robot/*/body.
+void start_anew(Simulation& run, const std::string& name) {
+  const Set* robots = run.board().find_set("robot");
+  for (const auto& [known, table] : run.board().tables()) {
+    const std::string quantity = known.substr(known.rfind('/') + 1);
+    if (&table->set() != robots || quantity == "body" || quantity.find('@') != quantity.npos) continue;
+    std::vector<double> row(table->width());
+    table->fill_initial(row.data());
+    run.set_row("robot/" + name + '/' + quantity, row);
+  }
 }
 
 const std::string bad_pose =
@@ -222,8 +234,8 @@ void SimulationInterfaces::spawn(const Value& request, const Answer& answer) {
   try {
     run.join("robot", name, like);
     spawned_.push_back(name);
+    start_anew(run, name);
     run.set_row("robot/" + name + "/pose", pose);
-    if (run.board().find("robot/*/twist")) run.set_row("robot/" + name + "/twist", std::vector<double>(6));
     if (radios && radios->find(like) >= 0 && run.board().find("radio/*/mount")) {
       run.join("radio", name, like);
       const TableView mount = run.table("radio/" + name + "/mount");
