@@ -47,6 +47,10 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--port", words.view_at.port, "with --view: its port; by default one that is free").within(0, 65535);
   line.option("--address", words.view_at.address, "with --view: another address than 127.0.0.1; needs --token");
   line.option("--token", words.view_at.token, "with --view: a word without which the page is not given");
+  line.flag("--paused", words.view_at.is_paused, "with --view: the run begins paused");
+  line.option("--origin", words.view_at.origins,
+              "with --view: a site whose page may watch, such as https://app.foxglove.dev")
+      .one_word_each();
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
 }
 
@@ -156,9 +160,9 @@ std::optional<double> speed_of(const RunWords& words) {
   return speed;
 }
 
-int run_world(RunWords& words) {
+// Throws Error.
+World asked_world(RunWords& words) {
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
-  const auto speed = speed_of(words);
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
@@ -180,8 +184,13 @@ int run_world(RunWords& words) {
     }
     world.swaps.push_back(std::move(swap));
   }
-  const auto records = world.records;
-  Simulation run(std::move(world), standard(), {plugin_path(words.plugins), words.workers, {}});
+  return world;
+}
+
+// The run from its start to its end. False: a client wants it anew.
+bool run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
+  const auto& records = world.records;
+  Simulation run(world, standard(), {plugin_path(words.plugins), words.workers, {}});
   set_parameters(run, words.set);
   check_records(run);
   if (!words.restore.empty()) run.restore(Snapshot::load(words.restore));
@@ -208,13 +217,11 @@ int run_world(RunWords& words) {
   Watcher watcher;
   Digests digests;
   Progress progress("muster run " + run.world().name);
-  watch_interrupt();
   SteadyClock clock(interrupted);
-  std::optional<LiveView> view;
   std::optional<Pacing> pacing;
-  if (words.view) {
-    const auto so_far = [&] { return record->so_far(run, outcome_of(run)); };
-    view.emplace(words.view_at, so_far, run.world().ticks, *speed), view->wait_for_reader();
+  if (view) {
+    view->watch(run, [&] { return record->so_far(run, outcome_of(run)); });
+    view->wait_for_reader();
   }
   if (speed && !words.expected) pacing.emplace(view ? static_cast<WallClock&>(*view) : clock, *speed, run.time());
   const double began_at = run.time();
@@ -240,7 +247,7 @@ int run_world(RunWords& words) {
     }
     while (!words.expected && !run.done() && !interrupted()) {
       if (words.watch) watcher.look(run);
-      if (view && !view->is_due(*pacing, run.time())) break;
+      if (view && !view->is_due(*pacing)) break;
       run.step();
       if (record) record->write(run), pictures->look(run);
       if (log) log->write(run);
@@ -248,7 +255,7 @@ int run_world(RunWords& words) {
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
       }
-      if (view) view->after_tick(run.tick());
+      if (view) view->after_tick();
       if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
     }
@@ -256,17 +263,29 @@ int run_world(RunWords& words) {
     finish();  // what stands up to the last whole tick is kept
     throw;
   }
+  if (view && view->wants_anew()) return false;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   auto files = finish();
   if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
     fmt::print(stderr, "muster: warning: {}\n", late);
-  if (view) view->finish(run.tick());
+  if (view) view->finish();
+  if (view && view->wants_anew()) return false;
   if (pictures && !unnamed) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
   if (record && !unnamed) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
   run.close();
+  return true;
+}
+
+int run_world(RunWords& words) {
+  const auto speed = speed_of(words);
+  const World world = asked_world(words);
+  watch_interrupt();
+  std::optional<LiveView> view;
+  if (words.view) view.emplace(words.view_at, world.records, *speed);
+  while (!run_once(words, world, speed, view ? &*view : nullptr)) continue;
   return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);
 }
 

@@ -80,6 +80,15 @@ class Simulation {
   ParameterInfo parameter(const std::string& path) const;
   void set_parameter(const std::string& path, double value);
 
+  // From outside, between two ticks; the next tick goes on from it. Throws Error, with the run as before.
+  // The cells of a named row: "robot/rover/pose".
+  void set_row(const std::string& name, const std::vector<double>& values);
+  // A row joins a live set as a copy of another; a row leaves. Both are events.
+  void join(const std::string& set, const std::string& name, const std::string& like);
+  void leave(const std::string& set, const std::string& name);
+  // An event of the kernel's.
+  void note(std::string message) { events_.push_back({tick_, "", std::move(message)}); }
+
   // Exchanges an instance's plugin; state carries over by the names of tables, attributes are the new plugin's. Dropped
   // state is listed in the events. If it throws, the run is as before.
   void swap(const std::string& instance, InstanceDeclaration replacement);

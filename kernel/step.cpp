@@ -184,6 +184,71 @@ void Simulation::finish(uint64_t tick) {
   }
 }
 
+namespace {
+
+Set& live_set(const Blackboard& board, const std::string& name) {
+  Set* set = board.find_set(name);
+  if (set && set->kind == SetKind::live) return *set;
+  throw Error(Exit::invalid_input,
+              "rows neither join nor leave " + quote(name) + "; expected a live set, such as \"robot\"");
+}
+
+std::size_t living_row(const Set& set, const std::string& name) {
+  const int row = set.find(name);
+  if (row >= 0 && set.alive[static_cast<std::size_t>(row)]) return static_cast<std::size_t>(row);
+  std::vector<std::string> there;
+  for (std::size_t r = 0; r < set.names.size(); ++r) {
+    if (set.alive[r]) there.push_back(set.names[r]);
+  }
+  throw Error(Exit::invalid_input, "no " + set.name + " is called " + quote(name) + "; " + suggest(name, there));
+}
+
+}  // namespace
+
+void Simulation::join(const std::string& set, const std::string& name, const std::string& like) {
+  Set& to = live_set(board_, set);
+  const auto row = static_cast<int>(living_row(to, like));
+  if (!is_name(name))
+    throw Error(Exit::invalid_input, quote(name) + " is not a name; expected letters, digits, _, - and .");
+  if (!to.add(name, row))
+    throw Error(Exit::invalid_input, "a " + set + " is called " + quote(name) + " already; names are never reused");
+  place(board_, {&to, name, row, {}});
+  note(set + ' ' + quote(name) + " joins, a copy of " + quote(like));
+}
+
+void Simulation::leave(const std::string& set, const std::string& name) {
+  Set& from = live_set(board_, set);
+  from.alive[living_row(from, name)] = 0;
+  note(set + ' ' + quote(name) + " leaves");
+}
+
+// A chain's stages, too: each of them is what some reader has until its writer steps again.
+void Simulation::set_row(const std::string& name, const std::vector<double>& values) {
+  const TableView view = table(name);
+  const auto refuse = [&](const std::string& what) { throw Error(Exit::invalid_input, quote(name) + ": " + what); };
+  if (view.row < 0) refuse("expected one row, such as \"robot/rover/pose\"");
+  if (values.size() != view.cols())
+    refuse(std::to_string(values.size()) + " values; expected " + std::to_string(view.cols()) + ": " +
+           view.table->columns().text());
+  for (std::size_t c = 0; c < values.size(); ++c) {
+    const Column& column = view.table->columns()[c];
+    if (column.bytes) refuse("bytes cannot be set");
+    const bool may_be = std::isfinite(values[c]) || (column.nullable && std::isnan(values[c])) ||
+                        (column.infinite && std::isinf(values[c]));
+    if (!may_be) refuse("the value of " + column.name + " is not finite");
+  }
+  std::string whole = view.table->name();
+  whole = whole.substr(0, whole.find('@'));
+  const std::string columns = view.table->columns().text();
+  for (const auto& [known, one] : board_.tables()) {
+    if (known != whole && !known.starts_with(whole + '@')) continue;
+    if (&one->set() != &view.table->set() || one->columns().text() != columns) continue;
+    std::copy(
+        values.begin(), values.end(),
+        one->stored().data.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view.row) * values.size()));
+  }
+}
+
 void Simulation::take_events(Instance& instance, uint64_t tick) {
   for (auto& message : instance.events) events_.push_back({tick, instance.name(), std::move(message)});
   instance.events.clear();

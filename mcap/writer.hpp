@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "records.hpp"
+#include "sink.hpp"
 #include "zstandard.hpp"
 
 namespace muster::mcap {
@@ -20,19 +21,19 @@ inline constexpr std::uint64_t chunk_time = 500'000'000;
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 // Every failure to write is an Error with Exit::io.
-class Writer {
+class Writer : public Sink {
  public:
   Writer(const std::filesystem::path& path, const Header& header) : Writer(path, header, temporary_name(path)) {}
   Writer(const std::filesystem::path& path, const Header& header, std::filesystem::path temporary);
-  ~Writer();  // without close() before, the temporary file stays as far as it was flushed
+  ~Writer() override;  // without close() before, the temporary file stays as far as it was flushed
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
   // Numbers are given by the writer. Throws Error after 65,535 of a kind.
-  std::uint16_t schema(Schema schema);
-  std::uint16_t channel(Channel channel);
+  std::uint16_t schema(Schema schema) override;
+  std::uint16_t channel(Channel channel) override;
   // On a channel of this writer.
-  void message(const Message& message);
+  void message(const Message& message) override;
   void metadata(const Metadata& metadata);
 
   // Writes what is in memory.

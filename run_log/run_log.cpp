@@ -6,7 +6,7 @@ namespace muster::run_log {
 
 RunLog::RunLog(const Simulation& run, const std::vector<RecordDeclaration>& tables, const std::filesystem::path& file,
                const std::string& version)
-    : writer_(file, {"ros2", "muster " + version}), tables_(tables, writer_), scene_(run, writer_) {
+    : writer_(file, {"ros2", "muster " + version}), messages_(run, tables, writer_) {
   const World& world = run.world();
   writer_.metadata({"muster.run",
                     {{"world", world.name},
@@ -15,11 +15,6 @@ RunLog::RunLog(const Simulation& run, const std::vector<RecordDeclaration>& tabl
                      {"dt", print_real(world.dt)},
                      {"until", print_real(world.until())},
                      {"version", version}}});
-}
-
-void RunLog::write(const Simulation& run) {
-  scene_.write(run);
-  tables_.write(run);
 }
 
 void RunLog::close(const Simulation& run) {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "run_log/scene_log.hpp"
-#include "run_log/table_log.hpp"
+#include "mcap/writer.hpp"
+#include "run_log/run_messages.hpp"
 
 namespace muster::run_log {
 
@@ -16,7 +16,7 @@ class RunLog {
          const std::string& version);
 
   // Call before the first tick and after each.
-  void write(const Simulation& run);
+  void write(const Simulation& run) { messages_.write(run); }
   // Completes the file, under its name; without it the file stays as FILE.part, as far as it was flushed.
   void close(const Simulation& run);
 
@@ -24,8 +24,7 @@ class RunLog {
 
  private:
   mcap::Writer writer_;
-  TableLog tables_;
-  SceneLog scene_;
+  RunMessages messages_;
 };
 
 }  // namespace muster::run_log

@@ -102,12 +102,12 @@ void add_radios(const Simulation& run, std::vector<Marker>& markers) {
 
 }  // namespace
 
-SceneLog::SceneLog(const Simulation& run, mcap::Writer& writer) : writer_(writer) {
+SceneLog::SceneLog(const Simulation& run, mcap::Sink& sink) : sink_(sink) {
   every_ = static_cast<std::uint64_t>(std::max(1.0, std::round(transforms_interval / run.world().dt)));
 }
 
 void SceneLog::send(std::uint16_t channel, std::uint32_t sequence, std::uint64_t now) {
-  writer_.message({channel, sequence, now, now, message_});
+  sink_.message({channel, sequence, now, now, message_});
 }
 
 void SceneLog::write(const Simulation& run) {
@@ -122,7 +122,7 @@ void SceneLog::write_transforms(const Simulation& run) {
   if (poses.count == 0) return;
   if (!transforms_)
     transforms_ =
-        writer_.channel({0, writer_.schema({0, tf_message.name, "ros2msg", tf_message.definition}), "/tf", "cdr", {}});
+        sink_.channel({0, sink_.schema({0, tf_message.name, "ros2msg", tf_message.definition}), "/tf", "cdr", {}});
   const std::uint64_t now = log_time(run.time());
   CdrWriter to(message_);
   to.count(static_cast<std::size_t>(std::count_if(poses.alive->begin(),
@@ -140,11 +140,11 @@ void SceneLog::write_transforms(const Simulation& run) {
 }
 
 void SceneLog::write_building(const Simulation& run) {
-  scene_ = writer_.channel({0,
-                            writer_.schema({0, marker_array.name, "ros2msg", marker_array.definition}),
-                            "/scene",
-                            "cdr",
-                            {{mcap::still, "true"}}});
+  scene_ = sink_.channel({0,
+                          sink_.schema({0, marker_array.name, "ros2msg", marker_array.definition}),
+                          "/scene",
+                          "cdr",
+                          {{mcap::still, "true"}}});
   std::vector<Marker> markers;
   add_building(run, markers);
   add_radios(run, markers);
@@ -172,11 +172,11 @@ void SceneLog::write_robots(const Simulation& run) {
 
 void SceneLog::write_events(const Simulation& run) {
   constexpr std::uint8_t info = 20;
+  if (!events_)
+    events_ =
+        sink_.channel({0, sink_.schema({0, log_line.name, "ros2msg", log_line.definition}), "/events", "cdr", {}});
   for (; events_sent_ < run.events().size(); ++events_sent_) {
     const Event& event = run.events()[events_sent_];
-    if (!events_)
-      events_ = writer_.channel(
-          {0, writer_.schema({0, log_line.name, "ros2msg", log_line.definition}), "/events", "cdr", {}});
     const std::uint64_t at = log_time(static_cast<double>(event.tick) * run.world().dt);
     CdrWriter to(message_);
     put_time(to, at);

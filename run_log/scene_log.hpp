@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "kernel/simulation.hpp"
-#include "mcap/writer.hpp"
+#include "mcap/sink.hpp"
 
 namespace muster::run_log {
 
 class SceneLog {
  public:
-  SceneLog(const Simulation& run, mcap::Writer& writer);
+  SceneLog(const Simulation& run, mcap::Sink& sink);
 
   // Call before the first tick and after each.
   void write(const Simulation& run);
@@ -25,7 +25,7 @@ class SceneLog {
   void write_events(const Simulation& run);
   void send(std::uint16_t channel, std::uint32_t sequence, std::uint64_t now);
 
-  mcap::Writer& writer_;
+  mcap::Sink& sink_;
   std::uint64_t every_ = 1;  // ticks, of transforms
   std::optional<std::uint16_t> transforms_, scene_, events_;
   std::uint32_t transforms_sent_ = 0, scenes_sent_ = 0;

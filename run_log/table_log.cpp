@@ -74,7 +74,7 @@ Field::Kind kind_of(const Simulation& run, const Column& column) {
 
 std::uint64_t log_time(double seconds) { return static_cast<std::uint64_t>(std::llround(seconds * 1e9)); }
 
-TableLog::TableLog(const std::vector<RecordDeclaration>& tables, mcap::Writer& writer) : writer_(writer) {
+TableLog::TableLog(const std::vector<RecordDeclaration>& tables, mcap::Sink& sink) : sink_(sink) {
   std::set<std::string> seen;
   for (const auto& declared : tables) {
     if (!seen.insert(declared.table).second) continue;
@@ -113,7 +113,12 @@ void TableLog::declare(const Simulation& run, const TableView& view, Logged& log
   logged.channels.clear();
   mcap::Schema schema{0, type_of(logged.table), "ros2msg", definition_of(logged.table)};
   if (const int earlier = types_[schema.name]++; earlier > 0) schema.name += std::to_string(earlier + 1);
-  logged.schema = writer_.schema(std::move(schema));
+  logged.schema = sink_.schema(std::move(schema));
+  // All that are known, at once: who watches can subscribe before the first message of a queue.
+  const bool has_channels = layout == Layout::row && view.row < 0;
+  for (std::size_t r = 0; r < (has_channels ? set.names.size() : 1); ++r) {
+    if (!has_channels || set.alive[r]) channel(view, logged, r);
+  }
 }
 
 std::uint16_t TableLog::channel(const TableView& view, Logged& logged, std::size_t row) {
@@ -122,14 +127,14 @@ std::uint16_t TableLog::channel(const TableView& view, Logged& logged, std::size
   if (number < 0) {
     LoggedTable table = logged.table;
     if (table.layout == Layout::row && view.row < 0) table.row = view.table->set().names[row];
-    number = writer_.channel({0, logged.schema, topic_of(table), "cdr", metadata_of(table)});
+    number = sink_.channel({0, logged.schema, topic_of(table), "cdr", metadata_of(table)});
   }
   return static_cast<std::uint16_t>(number);
 }
 
 void TableLog::send(const Simulation& run, std::uint16_t channel, std::uint32_t sequence) {
   const std::uint64_t now = log_time(run.time());
-  writer_.message({channel, sequence, now, now, message_});
+  sink_.message({channel, sequence, now, now, message_});
 }
 
 // Names are looked up once a table, not once a row.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernel/simulation.hpp"
-#include "mcap/writer.hpp"
+#include "mcap/sink.hpp"
 #include "run_log/tables/logged_table.hpp"
 
 namespace muster::run_log {
@@ -20,7 +20,7 @@ std::uint64_t log_time(double seconds);
 
 class TableLog {
  public:
-  TableLog(const std::vector<RecordDeclaration>& tables, mcap::Writer& writer);
+  TableLog(const std::vector<RecordDeclaration>& tables, mcap::Sink& sink);
 
   // Call before the first tick and after each.
   void write(const Simulation& run);
@@ -51,7 +51,7 @@ class TableLog {
   static void put_fields(const Logged& logged, const std::vector<RowNames>& names, std::size_t row, CdrWriter& to);
   void send(const Simulation& run, std::uint16_t channel, std::uint32_t sequence);
 
-  mcap::Writer& writer_;
+  mcap::Sink& sink_;
   std::vector<Logged> tables_;
   std::map<std::string, int> types_;  // names that are given
   std::string message_;

@@ -69,6 +69,13 @@ class CdrReader {
     return value;
   }
   double real() { return number<double>(); }
+  // Of 1, 2, 4 or 8 bytes.
+  std::uint64_t whole(std::size_t size) {
+    align(size);
+    std::uint64_t value = 0;
+    std::memcpy(&value, from_.bytes(size, "a number").data(), size);
+    return value;
+  }
   std::uint32_t count(const char* what = "a length") {
     align(4);
     return from_.number(what);

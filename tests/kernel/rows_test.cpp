@@ -148,6 +148,56 @@ TEST_F(Rows, WhatJoinIsNot) {
       "world.xml:4:1: j (toy.join): claims \"link/*/other\" to let rows join, but the rows of \"link\" do not join");
 }
 
+TEST_F(Rows, AreSetJoinAndLeaveFromOutsideBetweenTicks) {
+  const auto driven = [&] {
+    Simulation sim = run(two_robots + mover);
+    step(sim, 2);
+    EXPECT_THAT(column(sim, "robot/*/pose"), ElementsAre(3, 4));
+    sim.set_row("robot/a/pose", {10, 0, 0, 1, 0, 0, 0});
+    EXPECT_THAT(column(sim, "robot/*/pose"), ElementsAre(10, 4));
+    step(sim);
+    EXPECT_THAT(column(sim, "robot/*/pose"), ElementsAre(11, 5));
+    sim.join("robot", "c", "a");
+    EXPECT_THAT(column(sim, "robot/*/pose"), ElementsAre(11, 5, 11));
+    step(sim);
+    sim.leave("robot", "b");
+    step(sim);
+    EXPECT_THAT(column(sim, "robot/*/pose"), ElementsAre(13, 6, 13));
+    EXPECT_THAT(messages(sim), ElementsAre("3 : robot \"c\" joins, a copy of \"a\"", "4 : robot \"b\" leaves"));
+    const Snapshot saved = sim.snapshot();
+    step(sim);
+    const auto digest = sim.digest();
+    sim.restore(saved);
+    step(sim);
+    EXPECT_EQ(sim.digest(), digest);
+    return digest;
+  };
+  EXPECT_EQ(driven(), driven());
+}
+
+TEST_F(Rows, ThatCannotBeSetFromOutsideStayAsTheyAre) {
+  Simulation sim = run(two_robots + mover);
+  step(sim);
+  const auto before = sim.digest();
+  EXPECT_EQ(error_of([&] {
+              sim.set_row("robot/*/pose", {0, 0, 0, 1, 0, 0, 0});
+            }),
+            "\"robot/*/pose\": expected one row, such as \"robot/rover/pose\"");
+  EXPECT_EQ(error_of([&] { sim.set_row("robot/a/pose", {0}); }),
+            "\"robot/a/pose\": 1 values; expected 7: x[m] y[m] z[m] qw qx qy qz");
+  EXPECT_EQ(error_of([&] {
+              sim.set_row("robot/a/pose", {0, 0, NAN, 1, 0, 0, 0});
+            }),
+            "\"robot/a/pose\": the value of z is not finite");
+  EXPECT_EQ(error_of([&] { sim.join("robot", "b", "a"); }), "a robot is called \"b\" already; names are never reused");
+  EXPECT_EQ(error_of([&] { sim.join("robot", "a/b", "a"); }),
+            "\"a/b\" is not a name; expected letters, digits, _, - and .");
+  EXPECT_EQ(error_of([&] { sim.join("robot", "c", "d"); }), "no robot is called \"d\"; expected one of a, b");
+  EXPECT_EQ(error_of([&] { sim.leave("wall", "w"); }),
+            "rows neither join nor leave \"wall\"; expected a live set, such as \"robot\"");
+  EXPECT_EQ(sim.digest(), before);
+}
+
 TEST_F(Rows, ASetHasOneThatLetsRowsJoin) {
   EXPECT_EQ(error_of_world(two_robots + mover + "<toy.join name='j'/>\n<toy.join name='k' table='robot/*/other'/>\n"),
             "world.xml:6:1: k (toy.join): lets rows of \"robot\" join and leave; so does world.xml:5:1: j (toy.join)");

@@ -80,14 +80,16 @@ const Storeys& storeys() {
       {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log/tables"}},
       // In the place of a robot's hardware.
       {"plugins/devices", {"plugin_api", "text", "ports", "mcap", "run_log/tables"}},
+      // A run for those who watch and drive it as it goes.
+      {"live", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log", "run_log/tables"}},
 
       // Shares no code with what it grades.
       {"exam", {}},
       // Clients of the bridge, one file each, for programs outside.
       {"bridge", {}},
       {"cli",
-       {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer", "mcap",
-        "run_log"}},
+       {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer", "mcap", "run_log",
+        "live"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;

@@ -1,0 +1,28 @@
+// What a log holds of a run, in its order: the scene, then the recorded tables. The same for a file and for clients
+// that watch.
+#pragma once
+
+#include <vector>
+
+#include "run_log/scene_log.hpp"
+#include "run_log/table_log.hpp"
+
+namespace muster::run_log {
+
+class RunMessages {
+ public:
+  RunMessages(const Simulation& run, const std::vector<RecordDeclaration>& tables, mcap::Sink& sink)
+      : tables_(tables, sink), scene_(run, sink) {}
+
+  // Call before the first tick and after each.
+  void write(const Simulation& run) {
+    scene_.write(run);
+    tables_.write(run);
+  }
+
+ private:
+  TableLog tables_;
+  SceneLog scene_;
+};
+
+}  // namespace muster::run_log
