@@ -163,6 +163,8 @@ std::optional<double> speed_of(const RunWords& words) {
 // Throws Error.
 World asked_world(RunWords& words) {
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
+  if (!words.view && (words.view_at.is_paused || !words.view_at.origins.empty()))
+    throw Error(Exit::invalid_input, "--paused and --origin need --view beside them");
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);

@@ -210,7 +210,7 @@ void Foxglove::received(Client& client, std::string_view message, bool is_binary
 }
 
 void Foxglove::take_text(Client& client, std::string_view message) {
-  const Request request{Value::parse(message, nullptr, false)};
+  const Request request{parsed_json(message)};
   if (request.json.is_discarded()) return status(client, Level::error, "a text message that is no JSON");
   const auto op = request.json.is_object() ? request.json.find("op") : request.json.end();
   if (op == request.json.end() || !op->is_string())

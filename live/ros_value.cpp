@@ -11,6 +11,7 @@
 namespace muster::live {
 namespace {
 
+constexpr int deepest = 32;                     // of nested lists and objects
 constexpr std::size_t most_elements = 100'000;  // elements of a sequence
 
 struct Whole {
@@ -47,6 +48,16 @@ Value whole(const Whole& kind, const Value& given, const std::string& at) {
 }
 
 }  // namespace
+
+Value parsed_json(std::string_view text) {
+  bool is_deep = false;
+  const auto look = [&](int depth, Value::parse_event_t, Value&) {
+    is_deep |= depth > deepest;
+    return !is_deep;
+  };
+  Value value = Value::parse(text, look, false);
+  return is_deep ? Value(Value::value_t::discarded) : value;
+}
 
 RosType::RosType(std::string_view definition) {
   std::istringstream lines{std::string(definition)};

@@ -16,6 +16,10 @@ namespace muster::live {
 
 using Value = nlohmann::ordered_json;
 
+// Discarded where the text is no JSON, or is nested more deeply than anybody means: printing it again would need a
+// stack as deep.
+Value parsed_json(std::string_view text);
+
 class RosType {
  public:
   // Fields of builtin types, of strings, of sequences of them, and of types that follow after a line of "=".

@@ -52,7 +52,7 @@ void SimulationInterfaces::call(std::size_t service, const std::string& encoding
     if (is_cdr) {
       if (payload.size() > 4) request = type.read_cdr(payload);
     } else if (!payload.empty()) {
-      request = Value::parse(payload, nullptr, false);
+      request = parsed_json(payload);
       if (request.is_discarded()) return answer({"", services_[service].name + ": the request is no JSON"});
     }
     request = type.completed(request);

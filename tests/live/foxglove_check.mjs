@@ -110,6 +110,7 @@ async function check_malformed() {
   };
   const scene = client.channels.get('/scene').id;
   await said('{', /no JSON/);
+  await said('['.repeat(400_000) + ']'.repeat(400_000), /no JSON/);
   await said('[1]', /without "op"/);
   await said('{"op":7}', /without "op"/);
   await said('{"op":"subscribr"}', /did you mean \\?"subscribe/);

@@ -218,6 +218,8 @@ async function check_websocket() {
   expect_equal(await http('/simulation_interfaces/StepSimulation'), 405, 'a service by GET');
   expect_equal(await http('/simulation_interfaces/StepSimulatio', {method: 'POST'}), 400, 'a service that is not');
   expect_equal(await http('/simulation_interfaces/StepSimulation', {method: 'POST', body: '{"steps":1.5}'}), 400, 'half a step');
+  expect_equal(await http('/simulation_interfaces/StepSimulation', {method: 'POST', body: '['.repeat(400_000) + ']'.repeat(400_000)}), 400, 'a deep request');
+  expect_equal(await http('/simulation_interfaces/StepSimulation', {method: 'POST', body: ' '.repeat(2_000_000)}), 413, 'a long request');
   expect_equal(await http('/simulation_interfaces/StepSimulation', {method: 'POST', headers: {Origin: 'https://evil.example'}}), 403, 'a service for another site');
   expect_equal(await tick(address), 6, 'ticks after requests that were refused');
   await quit(run);
