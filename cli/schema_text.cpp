@@ -131,13 +131,27 @@ std::string plugin_element(const Library& library) {
                  newest.summary + (newest.manual ? std::string(".\n") + newest.manual : std::string()), content);
 }
 
-std::string swap_element() {
+// In <at> it has that one's time.
+std::string swap_element(bool in_at) {
   return element(
       "swap", "exchanges the plugin of an instance during the run",
-      "      <xs:group ref=\"plugins\" minOccurs=\"0\"/>\n" + attribute("at", "time", "when, in s", true) +
+      "      <xs:group ref=\"plugins\" minOccurs=\"0\"/>\n" +
+          (in_at ? "" : attribute("at", "time", "when, in s", true)) +
           attribute("instance", "xs:string", "the instance's name", true) +
           attribute("plugin", "xs:string", "the new plugin, whose attributes stand beside; or an element inside") +
           "      <xs:anyAttribute namespace=\"##local\" processContents=\"skip\"/>\n");
+}
+
+std::string at_element() {
+  const std::string set =
+      element("set", "sets a number",
+              attribute("path", "xs:string", "of a plugin or of the world: control.goal2d/x, door/d1/state", true) +
+                  attribute("value", "xs:string", "as the attribute of that name is written", true));
+  const std::string leave =
+      element("leave", "a robot leaves, with its radio", attribute("robot", "name", "which robot", true));
+  return element("at", "what happens at a time, in the order of its elements, swaps first",
+                 "      <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + set + leave + swap_element(true) +
+                     "      </xs:choice>\n" + attribute("t", "time", "when, in s", true));
 }
 
 std::string record_element() {
@@ -184,8 +198,8 @@ std::string schema_text(const Standard& standard, const std::vector<std::shared_
          "  <xs:group name=\"plugins\"><xs:choice>\n" +
          instances + "  </xs:choice></xs:group>\n  <xs:element name=\"world\">" +
          documentation("a world: robots, radios, walls, and the plugins that run them") +
-         "<xs:complexType>\n    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + elements + swap_element() +
-         record_element() + "    <xs:group ref=\"plugins\"/>\n    </xs:choice>\n" +
+         "<xs:complexType>\n    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + elements + at_element() +
+         swap_element(false) + record_element() + "    <xs:group ref=\"plugins\"/>\n    </xs:choice>\n" +
          attribute("name", "xs:string", "its name; by default that of its folder") +
          attribute("dt", "tick", "the tick in s; default 0.01") +
          attribute("until", "time", "the end of the run in s", true) +

@@ -37,6 +37,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   for (const auto& instance : instances_)
     std::erase_if(instance->events, [&](const std::string& message) { return !told.insert(message).second; });
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
+  check_changes();
 }
 
 Simulation::~Simulation() = default;

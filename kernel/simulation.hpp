@@ -62,8 +62,8 @@ class Simulation {
   double time() const { return static_cast<double>(tick_) * world_.dt; }
   bool done() const { return tick_ >= world_.ticks; }
 
-  // Runs one tick, after the swaps that the world file plans for it. If a plugin fails it throws Error and restores the
-  // state of the tick before.
+  // Runs one tick, after the swaps and changes that the world file plans for it. If a plugin fails it throws Error and
+  // restores the state of the tick before.
   void step();
   // Destroys all instances; any of them may fail. Call it last; throws Error.
   void close();
@@ -122,8 +122,12 @@ class Simulation {
   std::size_t find(const std::string& instance) const;
   void insert_at(std::size_t at, std::vector<InstanceDeclaration> declarations);
   void replace(std::size_t at, std::unique_ptr<Instance> instance);
-  void planned_swaps();
+  void do_planned();
+  void change(const ChangeDeclaration& planned);
+  double value_of(const ChangeDeclaration& planned) const;
   void check_planned();
+  void check_changes() const;
+  void living(const std::string& set, const std::string& name) const;  // throws if it is not there
   void drop_private_sets();
   template <class Change>
   void guarded(Change&& change);
@@ -155,7 +159,7 @@ class Simulation {
   std::vector<Event> events_;
   std::unique_ptr<ThreadPool> workers_;
   uint64_t tick_ = 0;
-  uint64_t planned_from_ = 0;  // planned swaps of ticks before this one are done
+  uint64_t planned_from_ = 0;  // what is planned for ticks before this one is done
   bool all_due_ = false;       // while one phase is evaluated
   // Of each instance in the last evaluation: its parameters, and the sum of its inputs' versions. Empty after anything
   // else has happened.

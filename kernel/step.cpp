@@ -11,7 +11,7 @@
 namespace muster {
 
 void Simulation::step() {
-  planned_swaps();
+  do_planned();
   throw_destroy_fault();
   if (!stood_.empty()) stood_.clear();
   run(tick_ + 1, MUSTER_CONTROL, MUSTER_OBSERVE, 0);
@@ -214,6 +214,10 @@ void Simulation::join(const std::string& set, const std::string& name, const std
     throw Error(Exit::invalid_input, "a " + set + " is called " + quote(name) + " already; names are never reused");
   place(board_, {&to, name, row, {}});
   note(set + ' ' + quote(name) + " joins, a copy of " + quote(like));
+}
+
+void Simulation::living(const std::string& set, const std::string& name) const {
+  living_row(live_set(board_, set), name);
 }
 
 void Simulation::leave(const std::string& set, const std::string& name) {

@@ -153,13 +153,67 @@ void Simulation::throw_destroy_fault() {
   throw Error(Exit::plugin_fault, first);
 }
 
-// Applies each planned swap once: after a failed tick the user may have replaced the instance before the retry.
-void Simulation::planned_swaps() {
+// Does once what is planned for a tick: after a failed one the user may have replaced an instance before the retry.
+void Simulation::do_planned() {
   if (tick_ < planned_from_) return;
   for (const auto& planned : world_.swaps) {
     if (planned.tick == tick_) swap(planned.instance, planned.replacement);
   }
+  for (const auto& planned : world_.changes) {
+    if (planned.tick == tick_) change(planned);
+  }
   planned_from_ = tick_ + 1;
+}
+
+namespace {
+
+// Throws the error of `act` as one of this place in the world file.
+template <class Act>
+void at_place(const Place& place, const Act& act) {
+  try {
+    act();
+  } catch (const Error& e) {
+    throw e.place().line > 0 ? e : Error(e.exit(), place, e.what());
+  }
+}
+
+}  // namespace
+
+double Simulation::value_of(const ChangeDeclaration& planned) const {
+  const ParameterInfo set = parameter(planned.path);
+  if (set.declared->kind == MUSTER_REFERENCE)
+    throw Error(Exit::invalid_input,
+                "parameter " + quote(planned.path) + ": a reference is claimed for good; expected a swap");
+  return attribute_values(*set.declared, 1, planned.value, {}, [](const Place&, const std::string&) {}).front();
+}
+
+void Simulation::change(const ChangeDeclaration& planned) {
+  at_place(planned.place, [&] {
+    if (planned.robot.empty()) {
+      set_parameter(planned.path, value_of(planned));
+      return note("set " + planned.path + " to " + planned.value.value);
+    }
+    leave("robot", planned.robot);
+    const Set* radios = board_.find_set("radio");
+    const int radio = radios ? radios->find(planned.robot) : -1;
+    if (radio >= 0 && radios->alive[static_cast<std::size_t>(radio)]) leave("radio", planned.robot);
+  });
+}
+
+// Reports faults of changes before the first tick. What an earlier swap brings is known when it is there.
+void Simulation::check_changes() const {
+  for (const auto& planned : world_.changes) {
+    const bool later = std::any_of(world_.swaps.begin(), world_.swaps.end(), [&](const SwapDeclaration& swap) {
+      return swap.tick <= planned.tick && planned.path.rfind(swap.instance + '/', 0) == 0;
+    });
+    if (later) continue;
+    at_place(planned.place, [&] {
+      if (planned.robot.empty())
+        value_of(planned);
+      else
+        living("robot", planned.robot);
+    });
+  }
 }
 
 // Makes each planned instance once before the first tick, so that its faults are reported at once.
@@ -195,7 +249,8 @@ namespace {
 
 // The one column that holds an attribute unchanged, or -1.
 int column_of(const Attribute& attribute, std::size_t width) {
-  if (!attribute.store || attribute.count != 1 || attribute.param.kind != MUSTER_REAL) return -1;
+  const bool is_number = attribute.param.kind == MUSTER_REAL || attribute.param.kind == MUSTER_CHOICE;
+  if (!attribute.store || attribute.count != 1 || !is_number) return -1;
   const auto columns = plain_columns(attribute, width);
   return columns.size() == 1 ? static_cast<int>(columns[0]) : -1;
 }

@@ -46,7 +46,7 @@ void WebSocket::send(Frame frame) {
   if (state_ != State::open) return;
   bytes_ += frame.size();
   waiting_.push_back(std::move(frame));
-  for (std::size_t at = is_writing_; bytes_ > most_waiting && waiting_.size() > 1 && at < waiting_.size();) {
+  for (std::size_t at = 0; bytes_ > most_waiting && waiting_.size() > 1 && at < waiting_.size();) {
     if (!waiting_[at].may_drop) {
       ++at;
       continue;
@@ -68,7 +68,9 @@ void WebSocket::write() {
                                [self = shared_from_this()](beast::error_code) { self->lost(); });
   }
   is_writing_ = true;
-  const Frame& frame = waiting_.front();
+  being_written_ = std::move(waiting_.front());
+  waiting_.pop_front();
+  const Frame& frame = being_written_;
   stream_.binary(frame.is_binary);
   const std::array<boost::asio::const_buffer, 2> parts{
       boost::asio::buffer(frame.head), frame.body ? boost::asio::buffer(*frame.body) : boost::asio::const_buffer()};
@@ -81,9 +83,8 @@ void WebSocket::write() {
 void WebSocket::written() {
   is_writing_ = false;
   ++sent_;
-  if (waiting_.empty()) return;  // it was lost meanwhile
-  bytes_ -= waiting_.front().size();
-  waiting_.pop_front();
+  if (state_ == State::closed) return;  // it was lost meanwhile
+  bytes_ -= being_written_.size();
   if (dropped_ > 0 && bytes_ < most_waiting / 2 && state_ == State::open)
     listener_.caught_up(*this, std::exchange(dropped_, 0));
   write();

@@ -41,8 +41,9 @@ class WebSocket : public Client, public std::enable_shared_from_this<WebSocket> 
   Listener& listener_;
   Request request_;
   boost::beast::flat_buffer in_;
-  std::deque<Frame> waiting_;  // the first one is being written where is_writing_
-  std::size_t bytes_ = 0;      // of them
+  std::deque<Frame> waiting_;
+  Frame being_written_;    // where is_writing_: it stays where it is until its handler is called
+  std::size_t bytes_ = 0;  // of them all
   std::uint64_t dropped_ = 0, sent_ = 0;
   bool is_writing_ = false;
   State state_ = State::opening;

@@ -84,10 +84,17 @@ bool is_swaps_own(const XmlAttribute& given) {
   return std::find(swap_attributes.begin(), swap_attributes.end(), given.name) != swap_attributes.end();
 }
 
-// <swap at= instance= plugin= ...>, or with the new plugin as an element inside.
-SwapDeclaration read_swap(const XmlElement& element, const World& world) {
-  const auto& at = needed(element, "at", "a time in seconds, from 0");
-  const uint64_t tick = ticks_of(number(at, 0, "a time in seconds, from 0"), world.dt, at.value_place);
+constexpr const char* a_time = "a time in seconds, from 0";
+
+uint64_t tick_of(const XmlAttribute& time, const World& world) {
+  return ticks_of(number(time, 0, a_time), world.dt, time.value_place);
+}
+
+// <swap at= instance= plugin= ...>, or with the new plugin as an element inside. In <at> its time is that one's.
+SwapDeclaration read_swap(const XmlElement& element, std::optional<uint64_t> of_at, const World& world) {
+  const XmlAttribute* own = element.attribute("at");
+  if (of_at && own) throw invalid(own->place, "<swap> has no attribute \"at\" inside <at>, whose time it has");
+  const uint64_t tick = of_at ? *of_at : tick_of(needed(element, "at", a_time), world);
   const std::string& instance = needed(element, "instance", "the name of an instance").value;
   const XmlElement* inside = element.children.size() == 1 ? &element.children[0] : nullptr;
   const XmlElement& given = inside ? *inside : element;
@@ -129,10 +136,43 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
                                                     ", so that <" + element.name + "> " + outcome});
 }
 
+void refuse_other_attributes(const XmlElement& element, const std::vector<std::string>& valid) {
+  for (const auto& given : element.attributes)
+    if (std::find(valid.begin(), valid.end(), given.name) == valid.end()) refuse_unknown(given, element.name, valid);
+  if (!element.children.empty() && element.name != "at") refuse_inside(element);
+}
+
+// <at t=> with <set path= value=/>, <swap .../> and <leave robot=/> in it.
+void read_at(const XmlElement& element, World& world) {
+  refuse_other_attributes(element, {"t"});
+  const uint64_t tick = tick_of(needed(element, "t", a_time), world);
+  if (tick >= world.ticks) world.warnings.push_back({element.place, "<at> comes at the end of the run or after it"});
+  if (element.children.empty())
+    world.warnings.push_back({element.place, "<at> is empty; expected <set>, <swap> or <leave> in it"});
+  for (const XmlElement& child : element.children) {
+    if (child.name == "set") {
+      refuse_other_attributes(child, {"path", "value"});
+      const XmlAttribute& path = needed(child, "path", "a number's path, such as door/d1/state");
+      world.changes.push_back({tick, path.value, needed(child, "value", "its new value"), "", path.value_place});
+    } else if (child.name == "leave") {
+      refuse_other_attributes(child, {"robot"});
+      const XmlAttribute& robot = needed(child, "robot", "the name of a robot");
+      world.changes.push_back({tick, "", {}, robot.value, robot.value_place});
+    } else if (child.name == "swap") {
+      world.swaps.push_back(read_swap(child, tick, world));
+    } else {
+      throw invalid(child.place,
+                    "<" + child.name + "> is no element of <at>; " + suggest(child.name, {"set", "swap", "leave"}));
+    }
+  }
+}
+
 // An element with a dot in its name is a plugin; any other must be known.
 void read_child(const XmlElement& element, const Standard& standard, World& world) {
-  if (element.name == "swap") {
-    world.swaps.push_back(read_swap(element, world));
+  if (element.name == "at") {
+    read_at(element, world);
+  } else if (element.name == "swap") {
+    world.swaps.push_back(read_swap(element, {}, world));
     const auto& swap = world.swaps.back();
     if (swap.tick >= world.ticks)
       world.warnings.push_back(
@@ -144,7 +184,7 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
     world.instances.push_back(read_instance(element, element.name));
     warn_of_long_wait(element, "does not step after its start", world);
   } else {
-    std::vector<std::string> valid = {"swap", "record"};
+    std::vector<std::string> valid = {"at", "swap", "record"};
     for (const auto& known : standard.elements) {
       if (element.name == known.name) return;  // read_rows() has read it
       valid.push_back(known.name);

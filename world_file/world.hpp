@@ -1,4 +1,4 @@
-// A world as its file declares it: rows of the standard sets, instances of plugins, swaps and records. Plain data: no
+// A world as its file declares it: rows of the standard sets, instances of plugins, swaps, changes and records. Plain data: no
 // plugin is loaded, and no reference to a plugin's declarations is resolved yet.
 #pragma once
 
@@ -52,6 +52,15 @@ struct SwapDeclaration {
   InstanceDeclaration replacement;
 };
 
+// What <at> does at a tick: sets a number by its path, or takes a robot out.
+struct ChangeDeclaration {
+  uint64_t tick = 0;
+  std::string path;    // "door/d1/state", "control.goal2d/x"
+  XmlAttribute value;  // of that path
+  std::string robot;   // that leaves; empty: a number is set
+  Place place;
+};
+
 struct RecordDeclaration {
   std::string table;
   uint64_t every = 1;
@@ -73,6 +82,7 @@ struct World {
   std::map<std::string, std::string> texts;  // "robot/leader/model"
   std::vector<InstanceDeclaration> instances;
   std::vector<SwapDeclaration> swaps;
+  std::vector<ChangeDeclaration> changes;  // in the order of the file; those of one tick come after its swaps
   std::vector<RecordDeclaration> records;
   std::vector<Warning> warnings;
 

@@ -34,6 +34,7 @@ World bare_world(const std::filesystem::path& file, const Standard& sets, const 
     });
   });
   bare.swaps.clear();
+  bare.changes.clear();
   bare.records.clear();
   return bare;
 }

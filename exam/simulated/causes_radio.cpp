@@ -87,6 +87,17 @@ PlantedCause antenna(const char* id, const std::string& radio, Random& random) {
 std::optional<PlantedCause> antenna_tx(const Setting& s, Random& random) {
   return antenna("antenna_tx", any_station(s, random).name, random);
 }
+std::optional<PlantedCause> sector_antenna(const Setting& s, Random& random) {
+  PlantedCause cause = of_radio("sector_antenna", any_station(s, random).name);
+  cause.numbers = {{"front_to_back", random.uniform(8, 25), "dB"},
+                   {"direction", random.uniform(-pi, pi), "rad"},
+                   {"edge", random.uniform(1.2, 2.2), "rad"}};
+  cause.kin = {"antenna_tx", "antenna_rx", "body_shadow"};
+  cause.size = "front_to_back";
+  cause.least = 0.5;
+  cause.most = 45;
+  return cause;
+}
 std::optional<PlantedCause> antenna_rx(const Setting& s, Random& random) {
   return antenna("antenna_rx", robot(random.below(s.site.robots)), random);
 }
@@ -175,12 +186,13 @@ std::vector<CauseKind> radio_causes() {
   SiteNeeds two_way, power;
   two_way.two_way = true;
   power.power = true;
-  return {
-      {"tx_offset", {}, tx_offset},          {"rx_offset", {}, rx_offset},           {"asymmetry", two_way, asymmetry},
-      {"feeder_loss", two_way, feeder_loss}, {"antenna_tx", {}, antenna_tx},         {"antenna_rx", {}, antenna_rx},
-      {"body_shadow", {}, body_shadow},      {"label_swap", {}, label_swap},         {"tx_misplaced", {}, tx_misplaced},
-      {"power_steps", power, power_steps},   {"labels_shifted", {}, labels_shifted}, {"plan_turned", {}, plan_turned},
-      {"column_shifted", {}, column_shifted}};
+  return {{"tx_offset", {}, tx_offset},           {"rx_offset", {}, rx_offset},
+          {"asymmetry", two_way, asymmetry},      {"feeder_loss", two_way, feeder_loss},
+          {"antenna_tx", {}, antenna_tx},         {"antenna_rx", {}, antenna_rx},
+          {"sector_antenna", {}, sector_antenna}, {"body_shadow", {}, body_shadow},
+          {"label_swap", {}, label_swap},         {"tx_misplaced", {}, tx_misplaced},
+          {"power_steps", power, power_steps},    {"labels_shifted", {}, labels_shifted},
+          {"plan_turned", {}, plan_turned},       {"column_shifted", {}, column_shifted}};
 }
 
 }  // namespace muster::exam::simulated

@@ -49,6 +49,18 @@ std::optional<PlantedCause> periodic(const Setting& s, Random& random) {
   return cause;
 }
 
+// The same of what one radio sends, in networks that hear both ways.
+template <std::optional<PlantedCause> (*of_links)(const Setting&, Random&)>
+std::optional<PlantedCause> of_sender(const Setting& s, Random& random) {
+  auto cause = of_links(s, random);
+  const std::string radio = random.pick(s.site.plan.stations).name;
+  cause->kin = {cause->id};
+  cause->id = "tx_" + cause->id;
+  cause->texts = {{"radio", radio}};
+  cause->rows = {"radio/" + radio};
+  return cause;
+}
+
 std::optional<PlantedCause> noise_floor(const Setting& s, Random& random) {
   if (!s.site.has_noise) return {};
   PlantedCause cause{"noise_floor_rssi"};
@@ -90,11 +102,15 @@ std::optional<PlantedCause> floor(const Setting& s, Random& random) {
 }  // namespace
 
 std::vector<CauseKind> time_causes() {
-  SiteNeeds noise;
+  SiteNeeds noise, two_way;
   noise.noise = true;
+  two_way.two_way = true;
   return {{"drift", {}, drift},
           {"step", {}, step},
           {"periodic", {}, periodic},
+          {"tx_drift", two_way, of_sender<drift>},
+          {"tx_step", two_way, of_sender<step>},
+          {"tx_periodic", two_way, of_sender<periodic>},
           {"noise_floor_rssi", noise, noise_floor},
           {"rssi_saturation", {}, saturation},
           {"rssi_compression", {}, compression},

@@ -19,7 +19,7 @@ TEST_F(Faults, Fault5MisspeltNames) {
             "seconds, from 0");
   EXPECT_EQ(error_with("<robbot at='0 0 0'/>"),
             "world.xml:2:1: <robbot> is no element of a world; expected a plugin (with a dot in its name) or one of "
-            "swap, record, material, "
+            "at, swap, record, material, "
             "wall, walls, door, floor, mesh, station, robot; did you mean \"robot\"?");
   EXPECT_EQ(error_with("<robot name='a' att='0 0 0'/>"),
             "world.xml:2:17: <robot> has no attribute \"att\"; expected one of name, model, packages, fittings, at, "

@@ -31,7 +31,7 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
       "values as attributes: <max_step_size NAME=\"VALUE\"/>");
   expect_refused("<world name=\"w\" until=\"1\"><physics type=\"ode\"/></world>",
                  "world.xml:1:27: <physics> is no element of a world; expected a plugin (with a dot in its name: "
-                 "<physics.ode/>) or one of swap, record, material, wall, walls, door, floor, mesh, station, robot");
+                 "<physics.ode/>) or one of at, swap, record, material, wall, walls, door, floor, mesh, station, robot");
 }
 
 TEST(FirstHour, PlacesWithCommasOrTooFewNumbers) {

@@ -81,6 +81,7 @@ std::string changed(const std::string& from, const std::string& to) {
       R"(<robot name="r" at="0 1 0"/><robots.drive/><physics.simbody name="body"/>)"
       R"(<radio.multiwall l0="40"/><network.ideal/><control.beacon radio="base"/><control.steady every="2" robot="r" v="0.5"/>)"
       R"(<swap at="0.5" instance="body"><physics.planar/></swap>)"
+      R"(<at t="0.5"><set path="door/d1/state" value="closed"/><leave robot="r"/></at>)"
       R"(<record table="robot/*/pose" every="2"/></world>)";
   const auto at = world.find(from);
   EXPECT_NE(at, world.npos) << from;
@@ -120,6 +121,10 @@ TEST_F(Schema, RefusesWhatACheckRefuses) {
       {"v=\"0.5\"", "v=\"fast\""},
       {"v=\"0.5\"", "v=\"11\""},
       {"<swap at=\"0.5\"", "<swap"},
+      {"<at t=\"0.5\"", "<at"},
+      {"<at t=\"0.5\"", "<at t=\"soon\""},
+      {"<leave robot=\"r\"/>", "<leave/>"},
+      {"<leave robot=\"r\"/>", "<go robot=\"r\"/>"},
       {"<swap at=\"0.5\"", "<swap at=\"half\""},
       {"<physics.planar/>", "<physics.planar/><physics.planar/>"},
       {" table=\"robot/*/pose\"", ""},
