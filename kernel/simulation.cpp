@@ -15,7 +15,9 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   auto folders = options_.search_path;
   folders.push_back(std::filesystem::absolute(world_.file).parent_path());  // a world's own files come last
   around_ = {&standard_, &world_, &board_, std::move(folders), world_.seed, {}, nullptr};
-  for (const auto& set : standard_.sets) board_.add_set(set.name, set.kind, set.owner);
+  for (const auto& set : standard_.sets) {
+    if (!set.on_demand) board_.add_set(set.name, set.kind, set.owner);
+  }
   for (const auto& row : world_.rows) {
     for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
   }

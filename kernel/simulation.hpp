@@ -115,6 +115,7 @@ class Simulation {
   void replace(std::size_t at, std::unique_ptr<Instance> instance);
   void planned_swaps();
   void check_planned();
+  bool is_claimed(const std::string& set) const;
   void drop_private_sets();
   template <class Change>
   void guarded(Change&& change);
