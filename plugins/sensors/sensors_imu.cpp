@@ -24,10 +24,11 @@ struct SensorsImu {
 upwards) and its angular rate, in its own axes, which `roll`, `pitch` and `yaw` (about x, y, z of the body, in this
 order) turn from the body's, at the place x, y, z of the body. The instance serves `robot`, or all robots that no other
 instance names.
-No backend states accelerations, so they follow from velocities: the acceleration that, constant in the body's turning
-axes, makes the change of the place's velocity over the last step of this instance. That is exact at rest, in straight
-and in circular motion and in free fall, and otherwise the mean over the step; impacts last as long as the step. Gravity
-and the angular rate are those at its end. The first reading comes one step after the start.
+No backend states accelerations, and velocities are means over a backend's own steps, so acceleration is the second
+difference of the place over the last two steps of this instance: the one that, constant in the turning body's axes,
+leads through these three places. That is exact at rest, in straight and in circular motion and in free fall, and
+otherwise a mean over two steps; impacts last as long. A reading is of the middle one of the three, so it is told one
+step after its `t`, with the angular rate and the gravity of then. The first comes two steps after the start.
 A reading = (1 + scale) x truth + bias + noise, within +-range. The bias is the given constant plus a random walk, whose
 standard deviation grows by `walk` times the root of time. White noise has standard deviation density x sqrt(rate of
 readings), so that its Allan variance is density^2 / tau, and that of the walk walk^2 tau / 3. Each robot draws its own.
@@ -59,13 +60,15 @@ Not modelled: misalignment and cross-axis terms, temperature, vibration, quantis
       real("gyro_range", 1e6, 0, 1e6, "rad/s", "largest angular rate that it can tell"),
   };
 
-  // The body at the last step, and the walks of the biases. `of`: 1 + the robot's row; a robot that joins as a copy of
-  // another starts anew.
+  // The body at the last step and the one before, its turn rate at the last, and the walks of the biases. `of`: 1 + the
+  // robot's row; a robot that joins as a copy of another starts anew. steps: how many of the two are known.
   struct Before {
     static constexpr const char* columns =
-        "of vx[m/s] vy[m/s] vz[m/s] wx[rad/s] wy[rad/s] wz[rad/s] qw qx qy qz walk1[m/s2] walk2[m/s2] walk3[m/s2] "
-        "walk4[rad/s] walk5[rad/s] walk6[rad/s]";
-    double of, v[3], w[3], q[4], walk[6];
+        "of steps x[m] y[m] z[m] qw qx qy qz x0[m] y0[m] z0[m] q0w q0x q0y q0z wx[rad/s] wy[rad/s] wz[rad/s] "
+        "walk1[m/s2] walk2[m/s2] walk3[m/s2] walk4[rad/s] walk5[rad/s] walk6[rad/s]";
+    double of, steps;
+    Pose last, earlier;
+    double w[3], walk[6];
   };
 
   // One half of the sensor.
@@ -101,8 +104,8 @@ Not modelled: misalignment and cross-axis terms, temperature, vibration, quantis
       const bool knows = last.of == static_cast<double>(robot + 1);
       k[reading][i] = knows ? k.last(reading)[i] : Imu{null(), null(), null(), null(), null(), null(), null()};
       k[before][i] = now(k, robot, knows ? last : Before{});
-      if (!knows || !k.alive("robot", robot) || !is_to_tell(k)) continue;
-      k[reading][i] = read(k, robot, last, k[before][i]);
+      if (!knows || last.steps < 2 || !k.alive("robot", robot) || !is_to_tell(k)) continue;
+      k[reading][i] = read(k, robot, last, k[before][i].walk);
     }
   }
 
@@ -111,30 +114,36 @@ Not modelled: misalignment and cross-axis terms, temperature, vibration, quantis
   double period(const Step& k) const { return k[rate] > 0 ? std::max(k.dt(), 1 / k[rate]) : k.dt(); }
 
   Before now(const Step& k, std::size_t robot, const Before& last) const {
-    const Pose& p = k[pose][robot];
     const Twist& t = k[twist][robot];
-    Before result{static_cast<double>(robot + 1), {t.vx, t.vy, t.vz}, {t.wx, t.wy, t.wz}, {p.qw, p.qx, p.qy, p.qz}, {}};
-    for (unsigned axis = 0; axis < 6; ++axis)
-      result.walk[axis] =
-          last.walk[axis] + drawn(k, robot, axis, k[axis < 3 ? accel.walk : gyro.walk] * std::sqrt(k.dt()));
+    Before result{static_cast<double>(robot + 1),
+                  std::min(2.0, last.steps + 1),
+                  k[pose][robot],
+                  last.last,
+                  {t.wx, t.wy, t.wz},
+                  {}};
+    for (unsigned axis = 0; axis < 6; ++axis) {
+      const double deviation = k[axis < 3 ? accel.walk : gyro.walk] * std::sqrt(k.dt());
+      result.walk[axis] = last.walk[axis] + drawn(k, robot, axis, deviation);
+    }
     return result;
   }
 
-  Imu read(const Step& k, std::size_t robot, const Before& from, const Before& to) const {
-    const Quaterniond at_first = attitude(from), at_last = attitude(to);
-    const Vector3d place(k[mount[0]], k[mount[1]], k[mount[2]]);
-    const Vector3d gain = velocity(to, at_last, place) - velocity(from, at_first, place);
+  Imu read(const Step& k, std::size_t robot, const Before& known, const double* walk) const {
+    const Pose& next = k[pose][robot];
+    const Quaterniond attitude = attitude_of(known.last);
+    const Vector3d bent = (place(k, next) - place(k, known.last)) - (place(k, known.last) - place(k, known.earlier));
     const Vector3d acceleration =
-        mean_rotation(turn_between(at_first, at_last)).inverse() * (at_first.conjugate() * gain) / k.dt();
-    const Vector3d force = acceleration + at_last.conjugate() * Vector3d(0, 0, k[gravity]);
+        unrolled(attitude.conjugate() * bent, turn_between(attitude, attitude_of(next))) / (k.dt() * k.dt());
+    const Vector3d force = acceleration + attitude.conjugate() * Vector3d(0, 0, k[gravity]);
     const Matrix3d to_sensor =
         (Eigen::AngleAxisd(k[angles[2]], Vector3d::UnitZ()) * Eigen::AngleAxisd(k[angles[1]], Vector3d::UnitY()) *
          Eigen::AngleAxisd(k[angles[0]], Vector3d::UnitX()))
             .toRotationMatrix()
             .transpose();
-    const Vector3d f = told(k, robot, accel, 0, to_sensor * force, to.walk);
-    const Vector3d w = told(k, robot, gyro, 3, to_sensor * (at_last.conjugate() * vector(to.w)), to.walk + 3);
-    return {k.time(), f.x(), f.y(), f.z(), w.x(), w.y(), w.z()};
+    const Vector3d turning(known.w[0], known.w[1], known.w[2]);
+    const Vector3d f = told(k, robot, accel, 0, to_sensor * force, walk);
+    const Vector3d w = told(k, robot, gyro, 3, to_sensor * (attitude.conjugate() * turning), walk + 3);
+    return {k.time() - k.dt(), f.x(), f.y(), f.z(), w.x(), w.y(), w.z()};
   }
 
   Vector3d told(const Step& k, std::size_t robot, const Part& part, unsigned first, const Vector3d& truth,
@@ -153,10 +162,8 @@ Not modelled: misalignment and cross-axis terms, temperature, vibration, quantis
     return deviation * stream.of(k.key("robot", robot)).normal(k.tick(), number);
   }
 
-  static Vector3d vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
-  static Quaterniond attitude(const Before& at) { return Quaterniond(at.q[0], at.q[1], at.q[2], at.q[3]).normalized(); }
-  static Vector3d velocity(const Before& body, const Quaterniond& attitude, const Vector3d& place) {
-    return vector(body.v) + vector(body.w).cross(attitude * place);
+  Vector3d place(const Step& k, const Pose& body) const {
+    return Vector3d(body.x, body.y, body.z) + attitude_of(body) * Vector3d(k[mount[0]], k[mount[1]], k[mount[2]]);
   }
 
   Bearer bearer;

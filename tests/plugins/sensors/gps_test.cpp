@@ -11,7 +11,7 @@ using namespace muster::test;
 constexpr double degree = 3.141592653589793 / 180;
 const std::string wide = "dt=\"0.05\" until=\"1000000\" seed=\"5\"";
 
-Gps reading(const Simulation& run, const std::string& robot = "r") { return row<Gps>(run, "robot/" + robot + "/gps"); }
+Gps told_by(const Simulation& run, const std::string& robot = "r") { return row<Gps>(run, "robot/" + robot + "/gps"); }
 
 // The radii of curvature of the ellipsoid at the origin.
 TEST(Globe, IsTheEllipsoidAtItsOrigin) {
@@ -47,7 +47,7 @@ TEST(Gps, TellsWhereItsAntennaIs) {
                             "<sensors.gps latitude=\"47.3\" longitude=\"8.5\" altitude=\"400\" x=\"0.2\" z=\"0.5\"/>",
                             {}, wide);
   run_ticks(run, 4);
-  const Gps told = reading(run);
+  const Gps told = told_by(run);
   const double height = row<Pose>(run, "robot/r/pose").z + 0.5;
   EXPECT_NEAR(told.east, 30, 1e-9);
   EXPECT_NEAR(told.north, -19.8, 1e-9);
@@ -69,7 +69,7 @@ Statistics of_errors(const std::string& attributes, int ticks, std::size_t lag) 
       world_of(folder, "<robot name=\"r\" at=\"0 0 0\"/><physics.planar/><sensors.gps rate=\"0\" " + attributes + "/>",
                {}, wide);
   std::vector<double> errors;
-  for (int i = 0; i < ticks; ++i) run.step(), errors.push_back(reading(run).east);
+  for (int i = 0; i < ticks; ++i) run.step(), errors.push_back(told_by(run).east);
   Statistics result;
   const double count = static_cast<double>(errors.size() - lag);
   for (std::size_t i = 0; i + lag < errors.size(); ++i) {
@@ -98,8 +98,8 @@ bool has_fix(const std::string& inside, const std::string& attributes = "",
                                 inside + "<sensors.gps rate=\"0\" z=\"0.3\" " + attributes + "/>",
                             files, wide);
   run.step();
-  EXPECT_EQ(reading(run).t, 0.05) << "it tried";
-  return !is_null(reading(run).east);
+  EXPECT_EQ(told_by(run).t, 0.05) << "it tried";
+  return !is_null(told_by(run).east);
 }
 
 std::string room(double half, const std::string& material = "brick") {
@@ -140,7 +140,7 @@ TEST(Gps, ErrsAlikeWhereverTheWorldIs) {
                                   "<sensors.gps rate=\"0\" horizontal=\"2\" white=\"1\"/>",
                               {}, wide);
     run_ticks(run, 20);
-    return std::pair(reading(run).east - x, reading(run).north - y);
+    return std::pair(told_by(run).east - x, told_by(run).north - y);
   };
   const auto here = errors("0 0", 0, 0), there = errors("120 -340", 120, -340);
   EXPECT_NE(here.first, 0);

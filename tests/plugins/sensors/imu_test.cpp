@@ -24,15 +24,18 @@ TEST(Imu, AtRestTellsGravityInItsOwnAxes) {
                                   "/><robots.drive/><sensors.imu x=\"0.1\" y=\"0.2\" z=\"0.3\" roll=\"0.3\" "
                                   "pitch=\"-0.4\" yaw=\"1.1\"/>",
                               {}, fast);
-    EXPECT_TRUE(is_null(reading(run).t)) << "no velocity before";
+    EXPECT_TRUE(is_null(reading(run).t)) << "no places before";
     run_ticks(run, 300);
     const Eigen::Matrix3d sensor =
         (Eigen::AngleAxisd(1.1, Vector3d::UnitZ()) * Eigen::AngleAxisd(-0.4, Vector3d::UnitY()) *
          Eigen::AngleAxisd(0.3, Vector3d::UnitX()))
             .toRotationMatrix();
-    EXPECT_LT((force(reading(run)) - sensor.transpose() * Vector3d(0, 0, g)).norm(), 1e-9) << physics;
+    const Pose stands = row<Pose>(run, "robot/r/pose");  // simbody's wheels give way a little
+    const Eigen::Quaterniond attitude(stands.qw, stands.qx, stands.qy, stands.qz);
+    const Vector3d expected = sensor.transpose() * (attitude.conjugate() * Vector3d(0, 0, g));
+    EXPECT_LT((force(reading(run)) - expected).norm(), physics == "planar" ? 1e-9 : 1e-6) << physics;
     EXPECT_LT(rate(reading(run)).norm(), 1e-9) << physics;
-    EXPECT_EQ(reading(run).t, time_of(run));
+    EXPECT_NEAR(reading(run).t, time_of(run) - 0.01, 1e-12);
   }
 }
 
@@ -61,6 +64,8 @@ TEST(Imu, InFreeFallTellsNothing) {
   Folder folder;
   Simulation run =
       world_of(folder, "<robot name=\"r\" model=\"crate\" at=\"0 0 90\"/><physics.simbody/><sensors.imu/>", {}, fast);
+  run.step();
+  EXPECT_TRUE(is_null(reading(run).t));
   for (int i = 0; i < 200; ++i) {
     run.step();
     EXPECT_LT(force(reading(run)).norm(), 1e-9);
@@ -96,7 +101,7 @@ std::vector<Imu> readings(const std::string& attributes, int ticks, const std::s
   for (int i = 0; i < ticks; ++i) {
     run.step();
     const Imu now = reading(run);
-    if (!is_null(now.t) && now.t == time_of(run)) result.push_back(now);
+    if (!is_null(now.t) && (result.empty() || now.t != result.back().t)) result.push_back(now);
   }
   return result;
 }
@@ -118,7 +123,7 @@ TEST(Imu, NoiseHasTheAllanVarianceThatIsStated) {
   const double density = 0.02, walk = 0.05, period = 0.01;
   for (const bool walks : {false, true}) {
     const auto all =
-        readings(walks ? "accel_walk=\"0.05\" gyro_walk=\"0.05\"" : "accel_noise=\"0.02\" gyro_noise=\"0.02\"", 40000);
+        readings(walks ? "accel_walk=\"0.05\" gyro_walk=\"0.05\"" : "accel_noise=\"0.02\" gyro_noise=\"0.02\"", 40001);
     ASSERT_EQ(all.size(), 40000u);
     for (const bool turns : {false, true}) {
       std::vector<double> numbers;
@@ -148,7 +153,7 @@ TEST(Imu, HasBiasScaleAndRange) {
 
 TEST(Imu, TellsAtItsRate) {
   EXPECT_EQ(readings("rate=\"20\"", 200).size(), 40u);
-  EXPECT_EQ(readings("rate=\"1000\"", 200).size(), 200u) << "once a step";
+  EXPECT_EQ(readings("rate=\"1000\"", 200).size(), 199u) << "once a step, from the second on";
   double squares = 0;
   const auto seldom = readings("rate=\"20\" gyro_noise=\"0.02\"", 20000);
   for (const Imu& imu : seldom) squares += imu.wy * imu.wy;

@@ -63,12 +63,12 @@ TEST(LaserErrors, AddTheBiasOfTheirTable) {
             std::string::npos);
 }
 
-// A near wall ends at the x axis, before a far one.
+// A near wall ends beside the x axis, before a far one.
 TEST(LaserErrors, MixTwoSurfacesWithinABeam) {
   Folder folder;
   const double width = 0.02;
   Simulation run = world_of(folder, still + wall + rover(folder) +
-                                        "<wall name=\"v\" from=\"2 -3\" to=\"2 0\" material=\"brick\"/>"
+                                        "<wall name=\"v\" from=\"2 -3\" to=\"2 0.00390625\" material=\"brick\"/>"
                                         "<sensors.laser beam=\"0.02\"/>");
   const Seen seen = scans(run).at(0);
   int mixed = 0;
@@ -77,8 +77,9 @@ TEST(LaserErrors, MixTwoSurfacesWithinABeam) {
     int near = 0;
     for (int j = 0; j < 9; ++j) {
       const double angle = seen.angle(i) + width * ((j + 0.5) / 9 - 0.5);
-      near += angle < 0;
-      sum += ((angle < 0 ? 1.95 : 2.95) - forward) / std::cos(angle);
+      const bool is_near = (1.95 - forward) * std::tan(angle) < 0.00390625;
+      near += is_near;
+      sum += ((is_near ? 1.95 : 2.95) - forward) / std::cos(angle);
     }
     EXPECT_NEAR(seen.ranges[i], sum / 9, 1e-9) << i;
     mixed += near > 0 && near < 9;

@@ -11,7 +11,7 @@ using namespace muster::test;
 const std::string air =
     "<physics.planar/><robots.drive/><radio.multiwall l0=\"40\" n=\"2.5\"/><radio.fading shadowing=\"3\"/>"
     "<radio.receiver sensitivity=\"-62\"/><radio.rssi_steps step=\"2\" least=\"-58\"/><network.ideal/>";
-const std::string pair =
+const std::string three =
     "<station name=\"base\" at=\"0 0 1\"/><robot name=\"r\" at=\"2 0 0\"/><robot name=\"s\" at=\"4 3 0\"/>";
 
 // All that has arrived, by radio and peer.
@@ -28,7 +28,7 @@ void add_arrivals(const Simulation& run, Arrived& arrived) {
 
 TEST(Links, AreWhatWasReceivedToTheBit) {
   Folder folder;
-  Simulation run = world_of(folder, pair + air +
+  Simulation run = world_of(folder, three + air +
                                         "<control.wander/><control.beacon name=\"a\" radio=\"base\" period=\"0.3\"/>"
                                         "<control.beacon name=\"b\" radio=\"s\" period=\"0.2\"/>"
                                         "<sensors.links memory=\"0.5\"/>");
@@ -62,7 +62,7 @@ TEST(Links, AreWhatWasReceivedToTheBit) {
 
 TEST(Links, KnowNothingOfAPeerThatIsSilent) {
   Folder folder;
-  Simulation run = world_of(folder, pair + air + "<control.beacon radio=\"base\" period=\"0.2\"/><sensors.links/>");
+  Simulation run = world_of(folder, three + air + "<control.beacon radio=\"base\" period=\"0.2\"/><sensors.links/>");
   run_ticks(run, 100);
   EXPECT_EQ(run.table("link/*/ends").rows(), 6u) << "all hear each other";
   const auto rows = told_now<Heard>(run, "heard/*/peer", time_of(run));
@@ -72,7 +72,7 @@ TEST(Links, KnowNothingOfAPeerThatIsSilent) {
 
 TEST(Links, ReadNoChannel) {
   Folder folder;
-  Simulation run = world_of(folder, pair + air + "<sensors.links name=\"l\"/>");
+  Simulation run = world_of(folder, three + air + "<control.beacon radio=\"base\"/><sensors.links name=\"l\"/>");
   for (const auto& instance : run.instances()) {
     if (instance->name() != "l") continue;
     for (const auto& claim : instance->claims()) {
@@ -85,7 +85,7 @@ TEST(Links, ReadNoChannel) {
 
 TEST(Links, SmoothAsDriversDo) {
   Folder folder;
-  Simulation run = world_of(folder, pair + air +
+  Simulation run = world_of(folder, three + air +
                                         "<control.wander/><control.beacon radio=\"base\" period=\"0.05\"/>"
                                         "<sensors.links smoothing=\"0.75\"/>");
   double expected = null(), seen = -1;
@@ -150,7 +150,7 @@ TEST(Links, AreTheSameRun) {
   Folder folder;
   expect_one_run(
       [&] {
-        return world_in(folder, pair + air +
+        return world_in(folder, three + air +
                                     "<control.wander/><control.beacon radio=\"base\" period=\"0.2\"/>"
                                     "<sensors.links name=\"l\" smoothing=\"0.5\" period=\"0.15\" jammers=\"true\"/>");
       },
@@ -160,7 +160,7 @@ TEST(Links, AreTheSameRun) {
 TEST(Links, ForgetAPeerThatIsGone) {
   Folder folder;
   Simulation run =
-      world_of(folder, pair + air + "<control.beacon radio=\"base\" period=\"0.6\"/><sensors.links forget=\"0.3\"/>");
+      world_of(folder, three + air + "<control.beacon radio=\"base\" period=\"0.6\"/><sensors.links forget=\"0.3\"/>");
   for (const auto& [until, is_known] : {std::pair{15u, true}, {20u, false}, {25u, true}}) {
     while (run.tick() < until) run.step();
     EXPECT_NE(told_now<Heard>(run, "heard/*/peer", time_of(run)).empty(), is_known) << until;
