@@ -131,7 +131,8 @@ std::string Simulation::suggest_table(const std::string& name) const {
   const std::string wanted_set = name.substr(0, name.find('/')), wanted = name.substr(name.rfind('/') + 1);
   std::map<std::string, std::string> of_word;  // "position": "robot/*/pose"
   for (const auto& set : standard_.sets) {
-    const bool has_rows = board_.find_set(set.name)->rows() > 0;
+    const Set* here = board_.find_set(set.name);  // none of one on demand that nobody claims
+    const bool has_rows = here && here->rows() > 0;
     for (const auto& quantity : set.quantities) {
       const std::string table = set.name + std::string("/*/") + quantity.name;
       if (*quantity.provider && has_rows && set.kind == SetKind::live) valid.insert(table);

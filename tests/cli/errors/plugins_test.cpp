@@ -162,7 +162,7 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       "robot/*/geometry, robot/*/gps, robot/*/imu, robot/*/legs, "
       "robot/*/odometry, robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "scan/*/message, wall/*/shape; did you "
+      "scan/*/message, ... (31 in all); did you "
       "mean \"robot/*/pose\"?");
 }
 
