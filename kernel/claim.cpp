@@ -58,8 +58,9 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
   return name;
 }
 
-Set& resolve_set(const TableName& name, const Instance& instance, Blackboard& board) {
+Set& resolve_set(const TableName& name, const Instance& instance, const Standard& standard, Blackboard& board) {
   if (Set* found = board.find_set(name.set)) return *found;
+  if (const auto* known = standard_set(standard, name.set)) return board.add_set(name.set, known->kind, known->owner);
   if (name.set.compare(0, 9, "instance/") != 0)
     throw instance.refused("claims a table of the set " + quote(name.set) + "; " + suggest(name.set, set_names(board)));
   Set& own = board.add_set(name.set, SetKind::fixed, "");
@@ -205,7 +206,7 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
   }
   if (made.columns.size() == 0) throw refused("claims " + quote(table) + " without columns");
   check_references(made, *this, *around_.board);
-  Set& set = resolve_set(made.name, *this, *around_.board);
+  Set& set = resolve_set(made.name, *this, *around_.standard, *around_.board);
   // A queue's rows are numbered; their owners are named.
   made.row = resolve_row(made.name, set.kind == SetKind::queue ? *around_.board->find_set(set.owner) : set, *this);
   if (kind == MUSTER_MODIFY && set.kind == SetKind::queue && made.row >= 0)

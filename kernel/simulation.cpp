@@ -15,7 +15,9 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   auto folders = options_.search_path;
   folders.push_back(std::filesystem::absolute(world_.file).parent_path());  // a world's own files come last
   around_ = {&standard_, &world_, &board_, std::move(folders), world_.seed, {}, nullptr};
-  for (const auto& set : standard_.sets) board_.add_set(set.name, set.kind, set.owner);
+  for (const auto& set : standard_.sets) {
+    if (!set.on_demand) board_.add_set(set.name, set.kind, set.owner);
+  }
   for (const auto& row : world_.rows) {
     for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
   }
@@ -130,7 +132,8 @@ std::string Simulation::suggest_table(const std::string& name) const {
   const std::string wanted_set = name.substr(0, name.find('/')), wanted = name.substr(name.rfind('/') + 1);
   std::map<std::string, std::string> of_word;  // "position": "robot/*/pose"
   for (const auto& set : standard_.sets) {
-    const bool has_rows = board_.find_set(set.name)->rows() > 0;
+    const Set* here = board_.find_set(set.name);  // none of one on demand that nobody claims
+    const bool has_rows = here && here->rows() > 0;
     for (const auto& quantity : set.quantities) {
       const std::string table = set.name + std::string("/*/") + quantity.name;
       if (*quantity.provider && has_rows && set.kind == SetKind::live) valid.insert(table);

@@ -128,6 +128,7 @@ class Simulation {
   void check_planned();
   void check_changes() const;
   void living(const std::string& set, const std::string& name) const;  // throws if it is not there
+  bool is_claimed(const std::string& set) const;
   void drop_private_sets();
   template <class Change>
   void guarded(Change&& change);

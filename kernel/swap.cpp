@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "claim.hpp"
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -234,13 +235,22 @@ void Simulation::check_planned() {
   }
 }
 
-// Drops the private sets of instances that no longer exist.
+bool Simulation::is_claimed(const std::string& set) const {
+  return std::any_of(instances_.begin(), instances_.end(), [&](const auto& instance) {
+    const auto& claims = instance->claims();
+    return std::any_of(claims.begin(), claims.end(), [&](const Claim& claim) { return claim.name.set == set; });
+  });
+}
+
+// Drops the private sets of instances that no longer exist, and sets on demand that nobody claims any more.
 void Simulation::drop_private_sets() {
   std::vector<std::string> unused;
   for (const auto& [name, set] : board_.sets()) {
     const bool is_used = std::any_of(board_.tables().begin(), board_.tables().end(),
                                      [&](const auto& table) { return &table.second->set() == set.get(); });
-    if (name.starts_with("instance/") && !is_used) unused.push_back(name);
+    const auto* known = standard_set(standard_, name);
+    const bool goes = known ? known->on_demand && !is_claimed(name) : name.starts_with("instance/");
+    if (goes && !is_used) unused.push_back(name);
   }
   for (const auto& name : unused) board_.drop_set(name);
 }

@@ -7,6 +7,7 @@
 #include <muster/floors.hpp>
 #include <muster/meshes.hpp>
 #include <muster/plugin.hpp>
+#include <muster/senses.hpp>
 #include <vector>
 
 namespace muster {
@@ -35,6 +36,7 @@ struct SetDeclaration {
   const char* owner;  // queue: the owning set, whose row number is in column 0; else ""
   const char* help;
   std::vector<Quantity> quantities;
+  bool on_demand = false;  // the set exists only in worlds in which a plugin claims it, so that no other world changes
 };
 
 // One attribute of an element: `count` numbers that go into a table, or a text that plugins read by its path.
@@ -137,6 +139,8 @@ inline const Standard& standard() {
              "control.velocity3d robot=\"...\""},
             {"velocity3d", Velocity3d::columns, "", true, "", "control.velocity3d", "control.path3d robot=\"...\""},
             {"position3d", Position3d::columns, "", true, "robots.mocap"},
+            {"imu", Imu::columns, "", true, "sensors.imu", "", "", "acceleration gyro gyroscope accelerometer"},
+            {"gps", Gps::columns, "", true, "sensors.gps", "", "", "gnss latitude longitude navsat"},
             {"rotor_drive", RotorDrive::columns, "", false, "robots.attitude"},
             {"rotors", Rotors::columns, "", false, "physics.simbody"}}},
           {"radio",
@@ -158,6 +162,18 @@ inline const Standard& standard() {
             {"fading", Fading::columns, "", false, "", "", "radio.fading"},
             {"rssi", Rssi::columns, "", false, "radio.receiver", "", "", "signal strength"}}},
           {"scan", SetKind::queue, "robot", "what lasers saw", {{"message", Scan::columns, "", true, "sensors.laser"}}},
+          {"heard",
+           SetKind::queue,
+           "robot",
+           "what radios know of the peers that they heard",
+           {{"peer", Heard::columns, "", true, "sensors.links", "", "", "links neighbours"}},
+           true},
+          {"range",
+           SetKind::queue,
+           "robot",
+           "distances to other radios, as measured",
+           {{"message", Range::columns, "", true, "sensors.range", "", "", "uwb distance"}},
+           true},
           {"outbox",
            SetKind::queue,
            "radio",

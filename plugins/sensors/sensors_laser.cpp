@@ -1,13 +1,16 @@
 // Lasers that sweep their plane: walls, doors, the ground and other robots.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "description/world_robots.hpp"
 #include "fan.hpp"
 #include "plugins/periods.hpp"
 #include "plugins/scene_rows.hpp"
 #include "scene/slabs.hpp"
+#include "sweep.hpp"
 
 namespace {
 
@@ -30,14 +33,39 @@ struct SensorsLaser {
       "white Gaussian noise is added, of standard deviation `noise` and, independently, `share` r; then it is rounded\n"
       "to the laser's resolution. Ranges above its max_range are infinite, below its min_range minus infinity\n"
       "(REP 117). A scan says where the robot's odometry had it, not where it was. Not seen are the robot itself,\n"
-      "legs, limbs, level floors other than the ground, and meshes of the world. Wheels are seen as they stand at 0.";
+      "legs, limbs, level floors other than the ground, and meshes of the world. Wheels are seen as they stand at 0.\n"
+      "Further errors, none by default: `biases` tabulates what is added at a range, in straight lines between its "
+      "rows\n"
+      "and even beyond them. With a width `beam` a reading is the mean of nine rays across it, of those that hit, so "
+      "that\n"
+      "at an edge it lies between two surfaces. A beam is lost (infinite) with probability\n"
+      "drop + drop_far (r/max_range)^2. With `sweep` a scan takes that long from its first ray to its last: each ray "
+      "is\n"
+      "cast from where the robot is at its time (others are where the tick leaves them), the scan is sent when the "
+      "last\n"
+      "is there, and its time and odometry are those of its start.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {real("noise", 0, 0, 10, "m", "standard deviation of a range").free(),
-                                     real("share", 0, 0, 1, "", "standard deviation of a range, of that range").free()};
+                                     real("share", 0, 0, 1, "", "standard deviation of a range, of that range").free(),
+                                     file("biases", "a table range[m],bias[m] of what is added at a range, rising"),
+                                     real("beam", 0, 0, 0.5, "rad", "full width of a beam; 0: a ray"),
+                                     real("drop", 0, 0, 1, "", "share of beams that is lost"),
+                                     real("drop_far", 0, 0, 1, "", "further share of them at the largest range"),
+                                     real("sweep", 0, 0, 1e3, "s", "from a scan's first ray to its last")};
+
+  // What is added to a range.
+  struct RangeBias {
+    static constexpr const char* columns = "range[m] bias[m] .";
+    double range, bias;
+  };
 
   explicit SensorsLaser(Setup& s)
       : noise(s.value("noise")),
         share(s.value("share")),
+        beam(s.value("beam")),
+        drop(s.value("drop")),
+        drop_far(s.value("drop_far")),
+        sweep(s.value("sweep")),
         stream(s.stream("laser")),
         robots(s, description::Meshes::import),
         pose(s.read<Pose>("robot/*/pose")),
@@ -47,6 +75,8 @@ struct SensorsLaser {
         state(s.read<DoorState>("door/*/state")),
         scan(s.write<Scan>("scan/*/message", MUSTER_SENSED)),
         model(s.write<description::Model>("robot/*/laser_model")) {
+    if (!s.text("biases").empty()) biases = s.file<RangeBias>("biases");
+    if (s.param("sweep") > 0) sweeps = s.write<Sweeps>("robot/*/laser_sweeps");
     for (std::size_t row = 1; row <= robots.size(); ++row) {
       const auto* robot = robots.of(static_cast<double>(row));
       if (robot) solids.emplace(robot, solids_of(*robot));
@@ -55,6 +85,8 @@ struct SensorsLaser {
 
   void step(const Step& k) const {
     for (std::size_t i = 0; i < k[model].size(); ++i) k[model][i] = {WorldRobots::model_of(k.last(model)[i].model, i)};
+    check_biases(k);
+    if (sweeps) return go_on(k);
     std::vector<Solid> walls;
     bool has_walls = false;
     std::size_t sent = 0;
@@ -66,7 +98,8 @@ struct SensorsLaser {
         if (!is_to_scan(k, sensor)) continue;
         if (!has_walls) walls = walls_of(k);
         has_walls = true;
-        send(k, sent++, i, n, sensor, seen(k, i, frame_of(k[pose][i]) * sensor.pose, sensor.laser, walls));
+        send(k, sent++, i, n, sensor, begun(k, i, sensor),
+             seen(k, i, frame_of(k[pose][i]) * sensor.pose, sensor.laser, walls));
       }
     }
   }
@@ -76,8 +109,99 @@ struct SensorsLaser {
     return sensor.laser.max_range > 0 && (k.tick() == 0 || is_due(k.time(), k.dt(), 1 / sensor.rate));
   }
 
+  // Scans that take their time: the rays whose turn came since the last tick.
+  void go_on(const Step& k) const {
+    const std::vector<Solid> walls = walls_of(k);
+    std::size_t sent = 0;
+    for (std::size_t i = 0; i < k[model].size(); ++i) {
+      const auto* robot = robots.of(k[model][i].model);
+      const Sweeps& last = k.last(*sweeps)[i];
+      const bool knows = last.of == static_cast<double>(i + 1);
+      const Pose& now = k[pose][i];
+      k[*sweeps][i] = {static_cast<double>(i + 1), now.x, now.y, now.z, now.qw, now.qx, now.qy, now.qz, 0};
+      if (!robot || !k.alive("robot", i)) continue;
+      const Isometry3d to = frame_of(now);
+      const Isometry3d from = knows ? frame_of({last.x, last.y, last.z, last.qw, last.qx, last.qy, last.qz}) : to;
+      auto scans = sweeps_of(knows ? k.last_bytes(*sweeps, i, Sweeps::scans_column) : "", robot->sensors.size());
+      for (std::size_t n = 0; n < scans.size(); ++n) {
+        const description::Sensor& sensor = robot->sensors[n];
+        if (sensor.laser.max_range > 0 && k[sweep] > 1 / sensor.rate)
+          throw BadInput("attribute \"sweep\": the laser " + sensor.name + " scans every " +
+                         std::to_string(1 / sensor.rate) + " s; expected at most that");
+        // A scan that ends as the next begins has its last rays first.
+        cast(k, i, sensor, scans[n], from, to, walls);
+        sent += is_sent(k, sent, i, n, sensor, scans[n]);
+        if (!is_to_scan(k, sensor)) continue;
+        scans[n] = begun(k, i, sensor);
+        cast(k, i, sensor, scans[n], from, to, walls);
+        sent += is_sent(k, sent, i, n, sensor, scans[n]);
+      }
+      k.put_bytes(*sweeps, i, Sweeps::scans_column, bytes_of(scans));
+    }
+  }
+
+  void cast(const Step& k, std::size_t self, const description::Sensor& sensor, Sweep& scan_so_far,
+            const Isometry3d& from, const Isometry3d& to, const std::vector<Solid>& walls) const {
+    if (scan_so_far.is_on == 0) return;
+    const description::Laser& laser = sensor.laser;
+    const auto rays = static_cast<std::size_t>(laser.samples);
+    for (std::size_t ray = scan_so_far.ranges.size(); ray < rays; ++ray) {
+      const double way = rays > 1 ? static_cast<double>(ray) / static_cast<double>(rays - 1) : 0;
+      const double left = k.time() - (scan_so_far.t + way * k[sweep]);  // since its turn [s]
+      if (left < -1e-9 * k.dt()) return;
+      description::Laser one = laser;
+      one.samples = 1;
+      one.min_angle = one.max_angle = laser.min_angle + static_cast<double>(ray) * laser.step();
+      const Isometry3d at = between(from, to, 1 - std::clamp(left / k.dt(), 0.0, 1.0)) * sensor.pose;
+      scan_so_far.ranges.push_back(seen(k, self, at, one, walls)[0]);
+    }
+  }
+
+  bool is_sent(const Step& k, std::size_t row, std::size_t robot, std::size_t number, const description::Sensor& sensor,
+               Sweep& done) const {
+    if (done.is_on == 0 || done.ranges.size() < static_cast<std::size_t>(sensor.laser.samples)) return false;
+    send(k, row, robot, number, sensor, done, done.ranges);
+    done = {};
+    return true;
+  }
+
+  Sweep begun(const Step& k, std::size_t robot, const description::Sensor& sensor) const {
+    const auto believed = k[odometry];
+    const bool knows = robot < believed.size();
+    return {1,
+            k.time(),
+            periods_in(k.time(), 1 / sensor.rate),
+            knows ? believed[robot].x : null(),
+            knows ? believed[robot].y : null(),
+            knows ? believed[robot].yaw : null(),
+            {}};
+  }
+
+  // Of beams: the mean of rays across each, of those that hit.
   std::vector<double> seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
                            const description::Laser& laser, const std::vector<Solid>& walls) const {
+    if (k[beam] == 0) return rays_seen(k, self, laser_pose, laser, walls);
+    constexpr int across = 9;
+    std::vector<double> sum(static_cast<std::size_t>(laser.samples), 0), hits = sum;
+    for (int j = 0; j < across; ++j) {
+      description::Laser beside = laser;
+      const double off = k[beam] * ((j + 0.5) / across - 0.5);
+      beside.min_angle += off;
+      beside.max_angle += off;
+      const auto ranges = rays_seen(k, self, laser_pose, beside, walls);
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        if (!(ranges[i] <= laser.max_range)) continue;
+        sum[i] += ranges[i];
+        ++hits[i];
+      }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] = hits[i] > 0 ? sum[i] / hits[i] : std::numeric_limits<double>::infinity();
+    return sum;
+  }
+
+  std::vector<double> rays_seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
+                                const description::Laser& laser, const std::vector<Solid>& walls) const {
     // Includes hits that noise may bring within its range.
     Fan fan(laser, laser.max_range + 6 * deviation(k, laser.max_range));
     const Isometry3d world = laser_pose.inverse();
@@ -93,24 +217,24 @@ struct SensorsLaser {
   }
 
   void send(const Step& k, std::size_t row, std::size_t robot, std::size_t number, const description::Sensor& sensor,
-            std::vector<double> ranges) const {
+            const Sweep& start, std::vector<double> ranges) const {
     const description::Laser& laser = sensor.laser;
     for (std::size_t i = 0; i < ranges.size(); ++i) {
-      ranges[i] = told(ranges[i] + error(k, robot, number, i, ranges[i]), laser);
+      const double range = ranges[i];
+      ranges[i] = told(range + error(k, robot, number, i, range), laser);
+      if (is_lost(k, robot, number, i, range / laser.max_range)) ranges[i] = std::numeric_limits<double>::infinity();
     }
     std::string payload(ranges.size() * sizeof(double), '\0');
     std::memcpy(payload.data(), ranges.data(), payload.size());
-    const auto believed = k[odometry];
-    const bool knows = robot < believed.size();
     const Eigen::Vector3d at = sensor.pose.translation();
     const Eigen::Quaterniond turned(sensor.pose.linear());
     k.send(scan, row, payload) = {static_cast<double>(robot),
                                   static_cast<double>(number),
-                                  periods_in(k.time(), 1 / sensor.rate),
-                                  k.time(),
-                                  knows ? believed[robot].x : null(),
-                                  knows ? believed[robot].y : null(),
-                                  knows ? believed[robot].yaw : null(),
+                                  start.id,
+                                  start.t,
+                                  start.x,
+                                  start.y,
+                                  start.yaw,
                                   at.x(),
                                   at.y(),
                                   at.z(),
@@ -137,8 +261,37 @@ struct SensorsLaser {
   }
 
   double error(const Step& k, std::size_t robot, std::size_t sensor, std::size_t ray, double range) const {
-    if (!std::isfinite(range) || deviation(k, range) == 0) return 0;
-    return deviation(k, range) * stream.of(k.key("robot", robot)).of(sensor).normal(k.tick(), ray);
+    if (!std::isfinite(range)) return 0;
+    const double bias = bias_at(k, range);
+    if (deviation(k, range) == 0) return bias;
+    return bias + deviation(k, range) * stream.of(k.key("robot", robot)).of(sensor).normal(k.tick(), ray);
+  }
+
+  bool is_lost(const Step& k, std::size_t robot, std::size_t sensor, std::size_t ray, double share_of_range) const {
+    const double lost = k[drop] + k[drop_far] * share_of_range * share_of_range;
+    if (k.expected() || !(lost > 0) || !std::isfinite(lost)) return false;
+    return stream.of(k.key("robot", robot)).of(sensor).of(1).uniform(k.tick(), ray) < lost;
+  }
+
+  void check_biases(const Step& k) const {
+    if (!biases) return;
+    const auto rows = k[*biases];
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (!(rows[i].range > rows[i - 1].range))
+        throw BadInput("attribute \"biases\": the ranges of the table do not rise at its row " + std::to_string(i + 1) +
+                       "; expected each above the one before");
+    }
+  }
+
+  double bias_at(const Step& k, double range) const {
+    if (!biases || k[*biases].empty()) return 0;
+    const auto rows = k[*biases];
+    const auto* after =
+        std::lower_bound(rows.begin(), rows.end(), range, [](const RangeBias& row, double r) { return row.range < r; });
+    if (after == rows.begin()) return after->bias;
+    const RangeBias& from = *(after - 1);
+    if (after == rows.end()) return from.bias;
+    return from.bias + (after->bias - from.bias) * (range - from.range) / (after->range - from.range);
   }
 
   std::vector<Solid> walls_of(const Step& k) const {
@@ -172,7 +325,7 @@ struct SensorsLaser {
     return result;
   }
 
-  Value noise, share;
+  Value noise, share, beam, drop, drop_far, sweep;
   Stream stream;
   WorldRobots robots;
   In<Pose> pose;
@@ -180,6 +333,8 @@ struct SensorsLaser {
   In<Wall> wall;
   In<Door> door;
   In<DoorState> state;
+  std::optional<In<RangeBias>> biases;
+  std::optional<Out<Sweeps>> sweeps;  // of scans that take their time
   Out<Scan> scan;
   Out<description::Model> model;
   std::map<const description::Robot*, std::vector<Solid>> solids;

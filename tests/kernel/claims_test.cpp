@@ -164,12 +164,14 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
                                   "from='robot/*/chargr' to='self/x'/>\n"),
       "world.xml:5:1: r (toy.copy_radio): reads \"robot/*/chargr\", which nobody writes; expected one of "
       "door/*/shape, door/*/state, "
-      "endpoint/*/pose, endpoint/*/radio, floor/*/shape, inbox/*/message, instance/r/*/x, link/*/ends, link/*/rssi, "
+      "endpoint/*/pose, endpoint/*/radio, floor/*/shape, heard/*/peer, inbox/*/message, instance/r/*/x, "
+      "link/*/ends, link/*/rssi, "
       "material/*/loss, mesh/*/shape, radio/*/mount, "
-      "radio/*/traffic, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/geometry, robot/*/legs, robot/*/odometry, "
+      "radio/*/traffic, range/*/message, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/geometry, robot/*/gps, "
+      "robot/*/imu, robot/*/legs, robot/*/odometry, "
       "robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "scan/*/message, wall/*/shape; "
+      "... (32 in all); "
       "did you mean \"robot/*/charge\"?");
   EXPECT_THAT(
       error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "

@@ -75,7 +75,8 @@ TEST_F(Records, WhatIsNotThereIsRefusedWhereItIsAskedFor) {
   Simulation sim(std::move(text), standard(), options());
   EXPECT_EQ(error_of([&] { Recorder(sim, declared, folder); }),
             "world.xml:5:1: record: there is no table \"robot/*/plaice\"; expected one of robot/*/drive, "
-            "robot/*/gait, robot/*/geometry, robot/*/legs, robot/*/odometry, robot/*/place, robot/*/pose, "
+            "robot/*/gait, robot/*/geometry, robot/*/gps, robot/*/imu, robot/*/legs, robot/*/odometry, robot/*/place, "
+            "robot/*/pose, "
             "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels; "
             "did you mean \"robot/*/place\"?");
   EXPECT_THAT(error_of([&] {

@@ -154,14 +154,15 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
       "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected "
       "one of door/*/shape, "
-      "door/*/state, endpoint/*/pose, endpoint/*/radio, floor/*/shape, inbox/*/message, "
+      "door/*/state, endpoint/*/pose, endpoint/*/radio, floor/*/shape, heard/*/peer, inbox/*/message, "
       "instance/test.reads_nobodys/*/cell, "
       "link/*/ends, "
-      "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, robot/*/drive, robot/*/gait, "
-      "robot/*/geometry, robot/*/legs, "
+      "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, range/*/message, robot/*/drive, "
+      "robot/*/gait, "
+      "robot/*/geometry, robot/*/gps, robot/*/imu, robot/*/legs, "
       "robot/*/odometry, robot/*/pose, "
       "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "scan/*/message, wall/*/shape; did you "
+      "scan/*/message, ... (31 in all); did you "
       "mean \"robot/*/pose\"?");
 }
 

@@ -28,8 +28,8 @@ TEST(Blind, AControllerThatClaimsTruthIsRefused) {
             "world.xml:2:1: test.peeker (test.peeker): claims \"robot/a/pose\", which is truth; a controller knows "
             "what its robot senses: "
             "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
-            "robot/stall, robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, scan/message, "
-            "outbox/message, inbox/message");
+            "robot/stall, robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, robot/imu, "
+            "robot/gps, scan/message, heard/peer, range/message, outbox/message, inbox/message");
 }
 
 TEST(Blind, AndSoIsOneThatReadsAnotherRobot) {
