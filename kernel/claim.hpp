@@ -9,7 +9,8 @@ namespace muster {
 // Error.
 TableName parse_table_name(const std::string& text, const Instance& instance, const Surroundings& around);
 
-// The set of a claim, created if it is private to an instance or a standard one on demand; and the number of the claimed row, or -1. Throws Error.
+// The set of a claim, created if it is private to an instance or a standard one on demand; and the number of the
+// claimed row, or -1. Throws Error.
 Set& resolve_set(const TableName& name, const Instance& instance, const Standard& standard, Blackboard& board);
 int resolve_row(const TableName& name, const Set& set, const Instance& instance);
 

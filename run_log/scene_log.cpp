@@ -5,9 +5,9 @@
 #include <muster/tables.hpp>
 
 #include "mcap/rewrite.hpp"
-#include "run_log/tables/cdr.hpp"
 #include "run_log/ros_types.hpp"
 #include "run_log/table_log.hpp"
+#include "run_log/tables/cdr.hpp"
 
 namespace muster::run_log {
 namespace {

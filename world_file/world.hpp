@@ -1,5 +1,5 @@
-// A world as its file declares it: rows of the standard sets, instances of plugins, swaps, changes and records. Plain data: no
-// plugin is loaded, and no reference to a plugin's declarations is resolved yet.
+// A world as its file declares it: rows of the standard sets, instances of plugins, swaps, changes and records. Plain
+// data: no plugin is loaded, and no reference to a plugin's declarations is resolved yet.
 #pragma once
 
 #include <filesystem>

@@ -29,9 +29,10 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
       "</world>",
       "world.xml:1:62: the text \"0.001\" stands between elements; expected elements and comments only, and "
       "values as attributes: <max_step_size NAME=\"VALUE\"/>");
-  expect_refused("<world name=\"w\" until=\"1\"><physics type=\"ode\"/></world>",
-                 "world.xml:1:27: <physics> is no element of a world; expected a plugin (with a dot in its name: "
-                 "<physics.ode/>) or one of at, swap, record, material, wall, walls, door, floor, mesh, station, robot");
+  expect_refused(
+      "<world name=\"w\" until=\"1\"><physics type=\"ode\"/></world>",
+      "world.xml:1:27: <physics> is no element of a world; expected a plugin (with a dot in its name: "
+      "<physics.ode/>) or one of at, swap, record, material, wall, walls, door, floor, mesh, station, robot");
 }
 
 TEST(FirstHour, PlacesWithCommasOrTooFewNumbers) {
