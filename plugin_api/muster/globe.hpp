@@ -7,8 +7,8 @@
 namespace muster {
 
 struct GlobePoint {
-  double latitude, longitude;  // [deg]
-  double altitude;             // above the ellipsoid [m]
+  double latitude = 0, longitude = 0;  // [deg]
+  double altitude = 0;                 // above the ellipsoid [m]
 };
 
 class GlobePlane {
