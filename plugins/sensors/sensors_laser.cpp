@@ -1,5 +1,6 @@
 // Lasers that sweep their plane: walls, doors, the ground and other robots.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -17,6 +18,11 @@ namespace {
 using namespace muster;
 using description::WorldRobots;
 using Eigen::Isometry3d;
+
+std::string seconds_text(double seconds) {
+  char digits[32];
+  return std::string(digits, std::to_chars(digits, digits + sizeof digits, seconds).ptr) + " s";
+}
 
 Isometry3d frame_of(const Pose& p) {
   return Eigen::Translation3d(p.x, p.y, p.z) * Eigen::Quaterniond(p.qw, p.qx, p.qy, p.qz);
@@ -127,7 +133,7 @@ struct SensorsLaser {
         const description::Sensor& sensor = robot->sensors[n];
         if (sensor.laser.max_range > 0 && k[sweep] > 1 / sensor.rate)
           throw BadInput("attribute \"sweep\": the laser " + sensor.name + " scans every " +
-                         std::to_string(1 / sensor.rate) + " s; expected at most that");
+                         seconds_text(1 / sensor.rate) + "; expected at most that");
         // A scan that ends as the next begins has its last rays first.
         cast(k, i, sensor, scans[n], from, to, walls);
         sent += is_sent(k, sent, i, n, sensor, scans[n]);

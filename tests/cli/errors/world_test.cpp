@@ -11,8 +11,8 @@ TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
   const ProgramFolder folder;
   folder.expect_refused(
       world_of(R"(<statoin name="b" at="0 0 1"/>)"),
-      "world.xml:1:36: <statoin> is no element of a world; expected a plugin (with a dot in its name) or one of swap, "
-      "record, material, wall, walls, door, floor, mesh, station, robot; did you mean \"station\"?");
+      "world.xml:1:36: <statoin> is no element of a world; expected a plugin (with a dot in its name) or one of at, "
+      "swap, record, material, wall, walls, door, floor, mesh, station, robot; did you mean \"station\"?");
   folder.expect_refused(
       world_of(R"(<station name="b" att="0 0 1"/>)"),
       "world.xml:1:54: <station> has no attribute \"att\"; expected one of name, at, yaw; did you mean \"at\"?");
