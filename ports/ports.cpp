@@ -270,4 +270,9 @@ void set_last(const Port& port, const muster_in& last, const muster_out& out) {
   if (!port.is_queue) std::copy_n(last.data, std::size_t{out.rows} * out.cols, out.data);
 }
 
+std::string seconds_text(double seconds) {
+  char digits[32];
+  return std::string(digits, std::to_chars(digits, digits + sizeof digits, seconds).ptr) + " s";
+}
+
 }  // namespace muster::ports

@@ -84,4 +84,7 @@ class GivenRows {
 void set_rest(const Port& port, const muster_out& out);
 void set_last(const Port& port, const muster_in& last, const muster_out& out);
 
+// "0.5 s"
+std::string seconds_text(double seconds);
+
 }  // namespace muster::ports

@@ -1,18 +1,12 @@
 #include "session.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 
 namespace muster::bridge {
 namespace {
 
 constexpr double farewell = 0.2;  // [s] for the last frame, to a client that does not read
-
-std::string seconds_text(double seconds) {
-  char digits[32];
-  return std::string(digits, std::to_chars(digits, digits + sizeof digits, seconds).ptr) + " s";
-}
 
 uint32_t names_of(const muster_host* host, const std::string& set, uint32_t first, FrameWriter& frame) {
   const uint32_t rows = host->row_name(host, set.c_str(), 0) ? host->rows(host, set.c_str()) : 0;

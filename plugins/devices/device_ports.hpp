@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -73,11 +72,7 @@ inline std::uint64_t new_session() {
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-// "0.5 s"
-inline std::string seconds_text(double seconds) {
-  char digits[32];
-  return std::string(digits, std::to_chars(digits, digits + sizeof digits, seconds).ptr) + " s";
-}
+using ports::seconds_text;
 
 // What `muster check` is to say of a world in which nothing is wrong.
 inline void note(const muster_host* host, const std::string& message) {

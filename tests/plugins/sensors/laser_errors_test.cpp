@@ -1,4 +1,5 @@
 // Errors of lasers beside white noise: against plane geometry, in worlds.
+#include "scans.hpp"
 #include "sense_world.hpp"
 
 namespace {
@@ -8,26 +9,6 @@ using namespace muster::test;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double forward = 0.05;  // of the Scarab's laser in its frame
-
-struct Seen {
-  Scan scan;
-  std::vector<double> ranges;
-  double angle(std::size_t i) const { return scan.min_angle + static_cast<double>(i) * scan.step; }
-};
-
-std::vector<Seen> scans(const Simulation& run) {
-  const TableView queue = run.table("scan/*/message");
-  std::vector<Seen> result;
-  for (std::size_t i = 0; i < queue.rows(); ++i) {
-    Seen seen;
-    std::memcpy(&seen.scan, queue.table->now().data.data() + i * queue.cols(), sizeof seen.scan);
-    const auto& bytes = *queue.table->now().blobs[static_cast<std::size_t>(seen.scan.ranges) - 1];
-    seen.ranges.resize(bytes.size() / sizeof(double));
-    std::memcpy(seen.ranges.data(), bytes.data(), bytes.size());
-    result.push_back(std::move(seen));
-  }
-  return result;
-}
 
 // At the origin, with exact ranges up to 4 m.
 std::string rover(const Folder& folder) {

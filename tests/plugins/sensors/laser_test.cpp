@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "scans.hpp"
 #include "tests/plugins/robots/robot_world.hpp"
 
 namespace {
@@ -16,26 +17,6 @@ using namespace muster::test;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double forward = 0.05, height = 0.152 + 0.055;  // of the Scarab's laser in its frame
-
-struct Seen {
-  Scan scan;
-  std::vector<double> ranges;
-  double angle(std::size_t i) const { return scan.min_angle + static_cast<double>(i) * scan.step; }
-};
-
-std::vector<Seen> scans(const Simulation& run) {
-  const TableView queue = run.table("scan/*/message");
-  std::vector<Seen> result;
-  for (std::size_t i = 0; i < queue.rows(); ++i) {
-    Seen seen;
-    std::memcpy(&seen.scan, queue.table->now().data.data() + i * queue.cols(), sizeof seen.scan);
-    const auto& bytes = *queue.table->now().blobs[static_cast<std::size_t>(seen.scan.ranges) - 1];
-    seen.ranges.resize(bytes.size() / sizeof(double));
-    std::memcpy(seen.ranges.data(), bytes.data(), bytes.size());
-    result.push_back(seen);
-  }
-  return result;
-}
 
 // The Scarab with exact ranges of its laser.
 std::string exact_scarab(const Folder& folder) {
