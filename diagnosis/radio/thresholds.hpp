@@ -86,7 +86,7 @@ inline constexpr double unstated_shadowing = 1;
 // runs; of the world, whose readings are asked for such a field; chosen; none
 inline constexpr int runs_for_a_field = 3;
 // share; of the field found that these may have for it to be the world's own; chosen;
-// UnstatedField.MultipathOfTheWorldIsNone
+// SimulatedDraws.MultipathOfTheWorldIsNoUnstatedField
 inline constexpr double drawn_field_share = 0.6;
 // gaps; the longest ones that are pauses of a run, not its sampling; chosen;
 // MeasurementGeometry.KnowsAScheduleOfSnapshots

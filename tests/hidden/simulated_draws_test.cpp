@@ -24,5 +24,13 @@ TEST(SimulatedDraws, ATroughOfShadowingIsNoFloor) {
   EXPECT_EQ(adequate.hits, 1) << as_text(g);
 }
 
+// Rayleigh fading of places and no shadowing: neighbouring readings share 1.6 dB, as the world's own draws do.
+TEST(SimulatedDraws, MultipathOfTheWorldIsNoUnstatedField) {
+  const Grades g = examined("--seed 11273 --first 28 --cases 1 --generator run --mix clean");
+  const Share& adequate = g.shares.at("clean / verdict adequate / all");
+  EXPECT_EQ(adequate.of, 1) << as_text(g);
+  EXPECT_EQ(adequate.hits, 1) << as_text(g);
+}
+
 }  // namespace
 }  // namespace muster::exam

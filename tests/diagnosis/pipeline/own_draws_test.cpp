@@ -35,18 +35,6 @@ TEST(OwnDraws, NothingIsWrongUnderMultipath) {
   EXPECT_LT(std::abs(off), std::log(2.0));
 }
 
-// Rayleigh fading of places, and no shadowing: neighbouring readings share a part of their fades, as the world says.
-TEST(UnstatedField, MultipathOfTheWorldIsNone) {
-  const Scratch scratch;
-  const std::filesystem::path world = flat(scratch, 3, "rician_k=\"-40\"");
-  std::string text = (std::stringstream() << std::ifstream(world).rdbuf()).str();
-  text.replace(text.find("shadowing=\"4\""), 13, "shadowing=\"0\"");
-  std::ofstream(world) << text;
-  const Diagnosis found = diagnose(world, drawn_by(scratch, world), plugins);
-  EXPECT_STREQ(found.verdict(), "adequate");
-  EXPECT_FALSE(found.unstated_field);
-}
-
 // The tour with the readings of the stations too.
 std::vector<std::string> both_ways() {
   std::vector<std::string> rows;
