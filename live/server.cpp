@@ -18,8 +18,9 @@ namespace http = beast::http;
 namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 
-constexpr std::uint32_t most_head = 16384;        // bytes of a request
+constexpr std::size_t most_head = 16384;          // bytes of a request
 constexpr std::uint64_t most_body = 1024 * 1024;  // bytes
+constexpr std::size_t most_left = 64 << 20;       // bytes that may follow a refusal
 constexpr std::size_t most_connections = 32;      // a browser opens six
 constexpr std::size_t most_clients = 16;          // of websockets
 constexpr auto request_time = std::chrono::seconds(30);
@@ -61,7 +62,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(tcp::socket socket, const Server::Rules& rules, TakeSocket take_socket)
       : stream_(std::move(socket)), rules_(rules), take_socket_(std::move(take_socket)) {
-    parser_.header_limit(most_head);
+    parser_.header_limit(static_cast<std::uint32_t>(most_head));
     parser_.body_limit(most_body);
   }
 
@@ -103,10 +104,22 @@ class Connection : public std::enable_shared_from_this<Connection> {
     answer_.body() = std::move(response.body);
     answer_.prepare_payload();
     stream_.expires_after(request_time);
-    http::async_write(stream_, answer_, [self = shared_from_this()](beast::error_code, std::size_t) {
+    http::async_write(stream_, answer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      if (error) return;
       beast::error_code ignored;
       self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+      self->in_.clear();
+      self->discard(most_left);
     });
+  }
+
+  // A lingering close: what still comes of a refused request is read and thrown away. A socket that is closed before
+  // that resets the connection, and the client may never see its answer.
+  void discard(std::size_t left) {
+    stream_.async_read_some(in_.prepare(std::min(left, most_head)),
+                            [self = shared_from_this(), left](beast::error_code error, std::size_t size) {
+                              if (!error && size < left) self->discard(left - size);
+                            });
   }
 
   beast::tcp_stream stream_;
