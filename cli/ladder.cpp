@@ -70,9 +70,11 @@ Channel channel_of(const Simulation& given) {
 void remove(World& world, const Names& names) {
   const auto gone = [&](const std::string& name) { return has(names, name); };
   std::erase_if(world.instances, [&](const InstanceDeclaration& each) { return gone(each.name); });
-  std::erase_if(world.swaps, [&](const SwapDeclaration& each) { return gone(each.instance); });
-  std::erase_if(world.changes,
-                [&](const ChangeDeclaration& each) { return gone(each.path.substr(0, each.path.rfind('/'))); });
+  for (Occasion& occasion : world.occasions) {
+    std::erase_if(occasion.plugins, [&](const PluginChange& each) { return gone(each.instance); });
+    std::erase_if(occasion.rows,
+                  [&](const RowChange& each) { return gone(each.path.substr(0, each.path.rfind('/'))); });
+  }
 }
 
 InstanceDeclaration* find(World& world, const std::string& name) {

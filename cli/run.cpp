@@ -28,7 +28,7 @@ struct RunWords : RunOptions {
   std::optional<std::string> speed;
   bool view = false;
   ViewSettings view_at;
-  SwapDeclaration swap;  // of the verb swap
+  PluginChange swap;  // of the verb swap
   std::string swap_at;
   LogWords log;
 };
@@ -170,9 +170,9 @@ World asked_world(RunWords& words) {
   World world = world_of(words.world, words);
   add_plotted(words.log, words.out, world.records);
   if (!words.swap.instance.empty()) {
-    SwapDeclaration swap = words.swap;
-    swap.tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
-    if (swap.tick >= world.ticks)
+    const PluginChange& swap = words.swap;
+    const uint64_t tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
+    if (tick >= world.ticks)
       throw Error(Exit::invalid_input, "--at: " + words.swap_at +
                                            " s is at the end of the run or after it; expected less than " +
                                            print_real(world.until()) + " s");
@@ -184,7 +184,7 @@ World asked_world(RunWords& words) {
       throw Error(Exit::invalid_input,
                   "--instance: no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, names));
     }
-    world.swaps.push_back(std::move(swap));
+    world.occasions.push_back({.tick = tick, .plugins = {swap}});
   }
   return world;
 }
@@ -311,10 +311,10 @@ int run_swap(const Arguments& arguments) {
   declare(line, words);
   line.option("--at", words.swap_at, "when, in seconds").required();
   line.option("--instance", words.swap.instance, "the instance").required();
-  line.option("--plugin", words.swap.replacement.plugin, "its new plugin, such as physics.planar").required();
+  line.option("--plugin", words.swap.plugin.plugin, "its new plugin, such as physics.planar").required();
   line.option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
   line.parse(arguments);
-  auto& replacement = words.swap.replacement;
+  auto& replacement = words.swap.plugin;
   replacement = instance_of(words.swap.instance, replacement.plugin, attributes, "muster swap");
   return run_world(words);
 }

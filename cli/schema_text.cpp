@@ -142,16 +142,32 @@ std::string swap_element(bool in_at) {
           "      <xs:anyAttribute namespace=\"##local\" processContents=\"skip\"/>\n");
 }
 
-std::string at_element() {
+// Its rows may join a run.
+bool joins(const Standard& standard, const Element& element) {
+  return !*element.file_of && std::any_of(standard.sets.begin(), standard.sets.end(), [&](const auto& set) {
+    return std::string(set.name) == element.set && set.kind == SetKind::live;
+  });
+}
+
+std::string at_element(const Standard& standard) {
   const std::string set =
       element("set", "sets a number",
               attribute("path", "xs:string", "of a plugin or of the world: control.goal2d/x, door/d1/state", true) +
                   attribute("value", "xs:string", "as the attribute of that name is written", true));
   const std::string leave =
-      element("leave", "a robot leaves, with its radio", attribute("robot", "name", "which robot", true));
-  return element("at", "what happens at a time, in the order of its elements, swaps first",
-                 "      <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + set + leave + swap_element(true) +
-                     "      </xs:choice>\n" + attribute("t", "time", "when, in s", true));
+      element("leave", "a robot leaves, with its radio, or a station",
+              attribute("robot", "name", "which robot") + attribute("station", "name", "which station"));
+  const std::string removed =
+      element("remove", "a plugin is removed", attribute("instance", "xs:string", "the instance's name", true));
+  std::string joining;
+  for (const auto& declared : standard.elements) {
+    if (joins(standard, declared)) joining += standard_element(declared);
+  }
+  return element("at", "what happens at a time or on a condition: plugins change first, then the others in their order",
+                 "      <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + set + leave + joining +
+                     swap_element(true) + removed + "      <xs:group ref=\"plugins\"/>\n      </xs:choice>\n" +
+                     attribute("t", "time", "when, in s") +
+                     attribute("when", "xs:string", "each time that this begins to hold: TABLE/COLUMN below NUMBER"));
 }
 
 std::string record_element() {
@@ -167,6 +183,7 @@ std::string unique_names(const Standard& standard) {
     if (*element.file_of) continue;
     std::string& elements = of_set[element.set];
     elements += (elements.empty() ? "" : "|") + std::string(element.name);
+    if (joins(standard, element)) elements += "|at/" + std::string(element.name);
   }
   std::string result;
   for (const auto& [set, elements] : of_set)
@@ -198,8 +215,9 @@ std::string schema_text(const Standard& standard, const std::vector<std::shared_
          "  <xs:group name=\"plugins\"><xs:choice>\n" +
          instances + "  </xs:choice></xs:group>\n  <xs:element name=\"world\">" +
          documentation("a world: robots, radios, walls, and the plugins that run them") +
-         "<xs:complexType>\n    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + elements + at_element() +
-         swap_element(false) + record_element() + "    <xs:group ref=\"plugins\"/>\n    </xs:choice>\n" +
+         "<xs:complexType>\n    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + elements +
+         at_element(standard) + swap_element(false) + record_element() +
+         "    <xs:group ref=\"plugins\"/>\n    </xs:choice>\n" +
          attribute("name", "xs:string", "its name; by default that of its folder") +
          attribute("dt", "tick", "the tick in s; default 0.01") +
          attribute("until", "time", "the end of the run in s", true) +

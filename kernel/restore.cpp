@@ -1,5 +1,7 @@
 // Restores a snapshot in place: all of it is checked against the run before anything changes.
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "simulation.hpp"
 #include "text/names.hpp"
@@ -79,24 +81,48 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
   }
 }
 
-// The world file may plan to swap an instance between the snapshot and now: then its earlier instance is made again.
-void Simulation::replace_planned(const Snapshot& snapshot, Replaced& replaced) {
-  std::vector<std::pair<std::string, const InstanceDeclaration*>> candidates;
-  for (const auto& declared : world_.instances) candidates.emplace_back(declared.name, &declared);
-  for (const auto& swap : world_.swaps) candidates.emplace_back(swap.instance, &swap.replacement);
-  for (std::size_t at = 0; at < instances_.size(); ++at) {
+// The world file may plan to change plugins between the snapshot and now: instances are made and removed until they are
+// those of then. What went is kept aside. True if any did.
+bool Simulation::put_instances(const Snapshot& snapshot, std::vector<std::unique_ptr<Instance>>& aside) {
+  std::vector<InstanceDeclaration> candidates = world_.instances;
+  std::set<std::string> planned;
+  for (const auto& occasion : world_.occasions) {
+    for (const auto& change : occasion.plugins) {
+      planned.insert(change.instance);
+      candidates.push_back(change.plugin);
+      candidates.back().name = change.instance;
+    }
+  }
+  const auto of_then = [&](const std::string& name, const Snapshot::SavedInstance& saved) {
+    const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                    [&](const auto& each) { return each.name == name && is_at(each, saved); });
+    return found == candidates.end() ? nullptr : &*found;
+  };
+  bool changed = false;
+  for (std::size_t at = 0; at < instances_.size();) {
     const std::string name = instances_[at]->name();
     const auto saved = snapshot.instances.find(name);
-    if (saved == snapshot.instances.end() || is_at(instances_[at]->declared(), saved->second)) continue;
-    const auto then = std::find_if(candidates.begin(), candidates.end(),
-                                   [&](const auto& c) { return c.first == name && is_at(*c.second, saved->second); });
-    if (then == candidates.end()) continue;
-    InstanceDeclaration declared = *then->second;
-    declared.name = name;
-    auto made = make(std::move(declared));
-    std::swap(instances_[at], made);
-    replaced.emplace_back(at, std::move(made));
+    if (saved == snapshot.instances.end() && planned.count(name)) {
+      aside.push_back(std::move(instances_[at]));
+      instances_.erase(instances_.begin() + static_cast<std::ptrdiff_t>(at));
+      changed = true;
+      continue;
+    }
+    if (saved != snapshot.instances.end() && !is_at(instances_[at]->declared(), saved->second)) {
+      if (const InstanceDeclaration* then = of_then(name, saved->second)) {
+        aside.push_back(std::exchange(instances_[at], make(*then)));
+        changed = true;
+      }
+    }
+    ++at;
   }
+  for (const auto& [name, saved] : snapshot.instances) {
+    const InstanceDeclaration* then = has(name) ? nullptr : of_then(name, saved);
+    if (!then) continue;
+    instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(place_of(*then)), make(*then));
+    changed = true;
+  }
+  return changed;
 }
 
 // Links with empty tables, which a snapshot is to fill.
@@ -119,26 +145,31 @@ void Simulation::put(const Snapshot& snapshot) {
   for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;
   for (const auto& instance : instances_) instance->params() = snapshot.instances.at(instance->name()).params;
   tick_ = planned_from_ = snapshot.tick;
+  look_at_conditions();
 }
 
 void Simulation::restore(const Snapshot& snapshot) {
   const Snapshot own = this->snapshot();
   const auto planned_from = planned_from_;
   const auto mark = board_.mark();
-  Replaced replaced;
+  std::vector<const Instance*> order;
+  for (const auto& instance : instances_) order.push_back(instance.get());
+  std::vector<std::unique_ptr<Instance>> aside;
   try {
-    replace_planned(snapshot, replaced);
-    if (!replaced.empty()) relink_anew();
+    if (put_instances(snapshot, aside)) relink_anew();
     check_fits(snapshot);
   } catch (...) {
-    const bool changed = !replaced.empty();
-    for (auto& [at, instance] : replaced) std::swap(instances_[at], instance);
+    batches_.clear();
+    for (auto& instance : instances_) aside.push_back(std::move(instance));
+    instances_.clear();
+    for (const Instance* each : order)
+      instances_.push_back(std::move(
+          *std::find_if(aside.begin(), aside.end(), [&](const auto& instance) { return instance.get() == each; })));
+    aside.clear();
     board_.back_to(mark);
-    if (changed) {
-      relink_anew();
-      put(own);
-      planned_from_ = planned_from;
-    }
+    relink_anew();
+    put(own);
+    planned_from_ = planned_from;
     throw;
   }
   drop_private_sets();

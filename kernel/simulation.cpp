@@ -19,7 +19,11 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
     if (!set.on_demand) board_.add_set(set.name, set.kind, set.owner);
   }
   for (const auto& row : world_.rows) {
-    for (const auto& set : row.sets) board_.find_set(set)->add(row.name);
+    for (const auto& name : row.sets) {
+      Set& set = *board_.find_set(name);
+      set.add(row.name);
+      if (row.joins_later) set.alive.back() = 0;
+    }
   }
   for (const auto& warning : world_.warnings)
     events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
@@ -28,10 +32,12 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   loader_ = std::make_unique<LibraryLoader>(options_.search_path);
   for (const auto& declaration : options_.more) instances_.push_back(make(declaration));
   for (const auto& declaration : world_.instances) instances_.push_back(make(declaration));
-  for (const auto& swap : world_.swaps) planned_.push_back(library_of(swap.replacement));
+  for (const auto& occasion : world_.occasions) {
+    for (const auto& change : occasion.plugins)
+      if (change.kind != PluginChange::Kind::remove) planned_.push_back(library_of(change.plugin));
+  }
   add_providers();
   loader_.reset();
-  check_planned();
   if (options_.workers > 1) workers_ = std::make_unique<ThreadPool>(options_.workers);
   around_.workers = workers_.get();
   relink();
@@ -39,7 +45,8 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   for (const auto& instance : instances_)
     std::erase_if(instance->events, [&](const std::string& message) { return !told.insert(message).second; });
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
-  check_changes();
+  rehearse();
+  look_at_conditions();
 }
 
 Simulation::~Simulation() = default;

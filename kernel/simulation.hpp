@@ -62,8 +62,8 @@ class Simulation {
   double time() const { return static_cast<double>(tick_) * world_.dt; }
   bool done() const { return tick_ >= world_.ticks; }
 
-  // Runs one tick, after the swaps and changes that the world file plans for it. If a plugin fails it throws Error and
-  // restores the state of the tick before.
+  // Runs one tick, after what the world file plans for it, and does what conditions bring that hold since. If a plugin
+  // fails it throws Error and restores the state of the tick before.
   void step();
   // Destroys all instances; any of them may fail. Call it last; throws Error.
   void close();
@@ -123,17 +123,28 @@ class Simulation {
   void insert_at(std::size_t at, std::vector<InstanceDeclaration> declarations);
   void replace(std::size_t at, std::unique_ptr<Instance> instance);
   void do_planned();
-  void change(const ChangeDeclaration& planned);
-  double value_of(const ChangeDeclaration& planned) const;
-  void check_planned();
-  void check_changes() const;
+  void do_conditional();
+  void happen(const std::vector<const Occasion*>& due);
+  void change(const PluginChange& planned);
+  void change(const RowChange& planned);
+  double value_of(const RowChange& planned, const ParameterInfo& set) const;
+  bool has(const std::string& instance) const;
+  std::size_t place_of(const InstanceDeclaration& planned) const;
+  std::vector<double> looked_at(const Condition& condition) const;
+  std::vector<double> of_link(const std::string& from, const std::string& to, const std::string& quantity,
+                              const std::string& column) const;
+  bool holds_now(const Occasion& occasion) const;
+  void look_at_conditions();
+  void rehearse();
+  void rehearse(const PluginChange& planned, std::vector<Instance*>& there,
+                std::vector<std::unique_ptr<Instance>>& made);
+  void rehearse(const RowChange& planned, const std::vector<Instance*>& there) const;
   void living(const std::string& set, const std::string& name) const;  // throws if it is not there
   bool is_claimed(const std::string& set) const;
   void drop_private_sets();
   template <class Change>
   void guarded(Change&& change);
-  using Replaced = std::vector<std::pair<std::size_t, std::unique_ptr<Instance>>>;
-  void replace_planned(const Snapshot& snapshot, Replaced& replaced);
+  bool put_instances(const Snapshot& snapshot, std::vector<std::unique_ptr<Instance>>& aside);
   void relink_anew();
   void check_fits(const Snapshot& snapshot) const;
   void put(const Snapshot& snapshot);
@@ -161,6 +172,7 @@ class Simulation {
   std::unique_ptr<ThreadPool> workers_;
   uint64_t tick_ = 0;
   uint64_t planned_from_ = 0;  // what is planned for ticks before this one is done
+  std::vector<char> held_;     // of each occasion: its condition held after the last tick
   bool all_due_ = false;       // while one phase is evaluated
   // Of each instance in the last evaluation: its parameters, and the sum of its inputs' versions. Empty after anything
   // else has happened.
@@ -174,7 +186,7 @@ class Simulation {
   std::map<std::size_t, std::string> faults_;         // of those among them that failed; the first ends the tick
   std::mutex faulty_;                                 // guards faults_
   std::vector<std::pair<Set*, std::size_t>> listed_;  // rows of the listed sets before this tick
-  std::vector<std::shared_ptr<Library>> planned_;     // libraries of swaps to come
+  std::vector<std::shared_ptr<Library>> planned_;     // libraries of plugins to come
   std::vector<std::string> unread_;                   // warnings of the last link
 };
 

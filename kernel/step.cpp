@@ -16,6 +16,7 @@ void Simulation::step() {
   if (!stood_.empty()) stood_.clear();
   run(tick_ + 1, MUSTER_CONTROL, MUSTER_OBSERVE, 0);
   ++tick_;
+  do_conditional();
 }
 
 void Simulation::evaluate(uint32_t phase, bool expected) {

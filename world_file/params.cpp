@@ -52,6 +52,28 @@ void refuse_inside(const XmlElement& element) {
                                   "expected elements side by side in <world>");
 }
 
+void expect_attributes(const XmlElement& element, const std::vector<std::string>& valid) {
+  for (const auto& given : element.attributes)
+    if (std::find(valid.begin(), valid.end(), given.name) == valid.end()) refuse_unknown(given, element.name, valid);
+  if (!element.children.empty()) refuse_inside(element);
+}
+
+const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected) {
+  if (const auto* found = element.attribute(name)) return *found;
+  throw lacking(element, name, expected);
+}
+
+double real_of(const XmlAttribute& given, double least, const char* expected) {
+  const auto value = parse_real(given.value);
+  if (!value)
+    throw invalid(given.value_place,
+                  "attribute " + quote(given.name) + ": " + why_not_real(given.value) + "; expected " + expected);
+  if (!(*value >= least))
+    throw invalid(given.value_place,
+                  "attribute " + quote(given.name) + ": " + given.value + " is out of bounds; expected " + expected);
+  return *value;
+}
+
 void check_name(const XmlAttribute& given) {
   if (!is_name(given.value))
     throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +

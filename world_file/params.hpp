@@ -27,7 +27,13 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
                                  const std::vector<std::string>& valid);
 Error lacking(const XmlElement& element, const std::string& attribute, const std::string& expected);
 [[noreturn]] void refuse_inside(const XmlElement& element);  // the first element inside one that has attributes only
+void expect_attributes(const XmlElement& element, const std::vector<std::string>& valid);  // and none inside it
 void check_name(const XmlAttribute& given);
+
+// An attribute that the element must have. Throws Error.
+const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected);
+// Its number, at least `least`. Throws Error.
+double real_of(const XmlAttribute& given, double least, const char* expected);
 
 // The words of a choice, "a|b|c".
 std::vector<std::string> choices(const muster_param& declared);

@@ -25,13 +25,9 @@ class RowReader {
   // First all names, so that a reference may point down the file; then all values.
   void read(const XmlElement& root) {
     for (const auto& child : root.children) {
-      const Element* element = find(child.name);
-      if (!element) continue;
-      check_attributes(child, *element);
-      if (*element->file_of)
-        add_file(child, *element);
-      else
-        declare(*element, child);
+      read_name(child, false);
+      for (const auto& inside : child.children)
+        if (child.name == "at") read_name(inside, true);
     }
     for (const auto& [given, element, row] : pending_) read_values(*given, *element, world_.rows[row]);
     for (const auto& load : files_) read_file_values(load);
@@ -49,6 +45,18 @@ class RowReader {
     TextTable table;
     std::size_t first_row;
   };
+
+  void read_name(const XmlElement& given, bool joins_later) {
+    const Element* element = find(given.name);
+    if (!element) return;
+    if (joins_later && (*element->file_of || set_of(standard_, element->set).kind != SetKind::live))
+      throw invalid(given.place, "<" + given.name + "> stands inside <at>, but rows of " + quote(element->set) +
+                                     " do not join a run; expected it in <world>");
+    check_attributes(given, *element);
+    if (*element->file_of) return add_file(given, *element);
+    declare(*element, given);
+    world_.rows.back().joins_later = joins_later;
+  }
 
   const Element* find(const std::string& name) const {
     for (const auto& element : standard_.elements) {

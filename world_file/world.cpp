@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "occasions.hpp"
 #include "params.hpp"
 #include "rows.hpp"
 #include "text/names.hpp"
@@ -14,17 +15,6 @@ namespace {
 
 constexpr double most_ticks = 1e12;
 
-double number(const XmlAttribute& given, double least, const char* expected) {
-  const auto value = parse_real(given.value);
-  if (!value)
-    throw invalid(given.value_place,
-                  "attribute " + quote(given.name) + ": " + why_not_real(given.value) + "; expected " + expected);
-  if (!(*value >= least))
-    throw invalid(given.value_place,
-                  "attribute " + quote(given.name) + ": " + given.value + " is out of bounds; expected " + expected);
-  return *value;
-}
-
 uint64_t positive_integer(const XmlAttribute& given) {
   const auto value = parse_integer(given.value);
   if (!value || *value < 1) {
@@ -33,11 +23,6 @@ uint64_t positive_integer(const XmlAttribute& given) {
                                          "; expected an integer from 1");
   }
   return static_cast<uint64_t>(*value);
-}
-
-const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected) {
-  if (const auto* found = element.attribute(name)) return *found;
-  throw lacking(element, name, expected);
 }
 
 // Refuses a file of another kind at its first element: what follows in it would give misleading errors.
@@ -62,7 +47,7 @@ void read_root(const XmlElement& root, World& world) {
     if (given.name == "name")
       world.name = given.value;
     else if (given.name == "dt")
-      world.dt = number(given, 1e-9, "the tick in seconds, from 1e-09");
+      world.dt = real_of(given, 1e-9, "the tick in seconds, from 1e-09");
     else if (given.name == "until")
       until = &given;
     else if (given.name == "seed") {
@@ -77,42 +62,7 @@ void read_root(const XmlElement& root, World& world) {
     }
   }
   if (!until) throw lacking(root, "until", "the end of the run in seconds, from 0");
-  world.ticks = ticks_of(number(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
-}
-
-bool is_swaps_own(const XmlAttribute& given) {
-  return std::find(swap_attributes.begin(), swap_attributes.end(), given.name) != swap_attributes.end();
-}
-
-constexpr const char* a_time = "a time in seconds, from 0";
-
-uint64_t tick_of(const XmlAttribute& time, const World& world) {
-  return ticks_of(number(time, 0, a_time), world.dt, time.value_place);
-}
-
-// <swap at= instance= plugin= ...>, or with the new plugin as an element inside. In <at> its time is that one's.
-SwapDeclaration read_swap(const XmlElement& element, std::optional<uint64_t> of_at, const World& world) {
-  const XmlAttribute* own = element.attribute("at");
-  if (of_at && own) throw invalid(own->place, "<swap> has no attribute \"at\" inside <at>, whose time it has");
-  const uint64_t tick = of_at ? *of_at : tick_of(needed(element, "at", a_time), world);
-  const std::string& instance = needed(element, "instance", "the name of an instance").value;
-  const XmlElement* inside = element.children.size() == 1 ? &element.children[0] : nullptr;
-  const XmlElement& given = inside ? *inside : element;
-  if (const auto* name = given.attribute("name"))
-    throw invalid(name->place,
-                  "<" + given.name + "> has no attribute \"name\"; the replacement keeps the name " + quote(instance));
-  if (inside) {
-    for (const auto& a : element.attributes) {
-      if (a.name != "at" && a.name != "instance") refuse_unknown(a, element.name, {"at", "instance"});
-    }
-    return {tick, instance, read_instance(*inside, inside->name)};
-  }
-  XmlElement rest = element;
-  std::erase_if(rest.attributes, is_swaps_own);
-  InstanceDeclaration replacement =
-      read_instance(rest, needed(element, "plugin", "the new plugin's id, or the plugin as an element inside").value);
-  replacement.shares_element = true;
-  return {tick, instance, std::move(replacement)};
+  world.ticks = ticks_of(real_of(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
 }
 
 RecordDeclaration read_record(const XmlElement& element) {
@@ -136,47 +86,12 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
                                                     ", so that <" + element.name + "> " + outcome});
 }
 
-void refuse_other_attributes(const XmlElement& element, const std::vector<std::string>& valid) {
-  for (const auto& given : element.attributes)
-    if (std::find(valid.begin(), valid.end(), given.name) == valid.end()) refuse_unknown(given, element.name, valid);
-  if (!element.children.empty() && element.name != "at") refuse_inside(element);
-}
-
-// <at t=> with <set path= value=/>, <swap .../> and <leave robot=/> in it.
-void read_at(const XmlElement& element, World& world) {
-  refuse_other_attributes(element, {"t"});
-  const uint64_t tick = tick_of(needed(element, "t", a_time), world);
-  if (tick >= world.ticks) world.warnings.push_back({element.place, "<at> comes at the end of the run or after it"});
-  if (element.children.empty())
-    world.warnings.push_back({element.place, "<at> is empty; expected <set>, <swap> or <leave> in it"});
-  for (const XmlElement& child : element.children) {
-    if (child.name == "set") {
-      refuse_other_attributes(child, {"path", "value"});
-      const XmlAttribute& path = needed(child, "path", "a number's path, such as door/d1/state");
-      world.changes.push_back({tick, path.value, needed(child, "value", "its new value"), "", path.value_place});
-    } else if (child.name == "leave") {
-      refuse_other_attributes(child, {"robot"});
-      const XmlAttribute& robot = needed(child, "robot", "the name of a robot");
-      world.changes.push_back({tick, "", {}, robot.value, robot.value_place});
-    } else if (child.name == "swap") {
-      world.swaps.push_back(read_swap(child, tick, world));
-    } else {
-      throw invalid(child.place,
-                    "<" + child.name + "> is no element of <at>; " + suggest(child.name, {"set", "swap", "leave"}));
-    }
-  }
-}
-
 // An element with a dot in its name is a plugin; any other must be known.
 void read_child(const XmlElement& element, const Standard& standard, World& world) {
   if (element.name == "at") {
-    read_at(element, world);
+    read_at(element, standard, world);
   } else if (element.name == "swap") {
-    world.swaps.push_back(read_swap(element, {}, world));
-    const auto& swap = world.swaps.back();
-    if (swap.tick >= world.ticks)
-      world.warnings.push_back(
-          {element.place, "the swap of " + quote(swap.instance) + " comes at the end of the run or after it"});
+    read_swap_element(element, world);
   } else if (element.name == "record") {
     world.records.push_back(read_record(element));
     warn_of_long_wait(element, "is written at its start alone", world);
@@ -206,13 +121,7 @@ void check_names(const World& world) {
                                         found->second.text() + "; give one of them a name=\"...\" of its own");
     }
   }
-  for (const auto& swap : world.swaps) {
-    if (seen.count(swap.instance)) continue;
-    std::vector<std::string> valid;
-    for (const auto& [name, place] : seen) valid.push_back(name);
-    throw invalid(swap.replacement.place,
-                  "no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, valid));
-  }
+  check_occasions(world);
 }
 
 }  // namespace
@@ -245,6 +154,11 @@ uint64_t ticks_of(double time, double dt, const Place& place) {
   if (time > 0 && time < dt)
     throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
   return static_cast<uint64_t>(ticks);
+}
+
+void World::stand_still() {
+  occasions.clear();
+  for (auto& row : rows) row.joins_later = false;
 }
 
 World read_world(const std::filesystem::path& path, const Standard& standard) {

@@ -29,6 +29,7 @@ struct RowDeclaration {
   std::string own_row;            // "set/quantity" whose first column refers to this row
   Place place;
   std::vector<StoredValues> values;
+  bool joins_later = false;  // its element stands in an <at>
 };
 
 // An element that is a plugin: <radio.multiwall name="radio" every="2" l0="40"/>.
@@ -46,19 +47,43 @@ struct InstanceDeclaration {
   std::string needed_by{};
 };
 
-struct SwapDeclaration {
-  uint64_t tick = 0;
+// A plugin that is exchanged, inserted or removed while the run goes on.
+struct PluginChange {
+  enum class Kind { swap, insert, remove };
+  Kind kind = Kind::swap;
   std::string instance;
-  InstanceDeclaration replacement;
+  InstanceDeclaration plugin;  // the new one
+  Place place{};
 };
 
-// What <at> does at a tick: sets a number by its path, or takes a robot out.
-struct ChangeDeclaration {
-  uint64_t tick = 0;
-  std::string path;    // "door/d1/state", "control.goal2d/x"
-  XmlAttribute value;  // of that path
-  std::string robot;   // that leaves; empty: a number is set
+// A number that is set by its path, or rows that join or leave.
+struct RowChange {
+  enum class Kind { set, join, leave };
+  Kind kind = Kind::set;
+  std::string path;               // "door/d1/state", "control.goal2d/x"
+  XmlAttribute value;             // of that path
+  std::string row;                // that joins or leaves
+  std::vector<std::string> sets;  // whose row it is
   Place place;
+};
+
+// A number of a table held against another: `when="link/base/rover/rssi/rssi below -60"`.
+struct Condition {
+  enum class Relation { below, above, is };
+  std::string text;
+  std::string path;  // "robot/leader/pose/x", "robot/*/pose/x" for any of them
+  Relation relation = Relation::below;
+  double value = 0;
+  Place place;
+};
+
+// What happens at a tick, or each time that a condition begins to hold. Plugins change first.
+struct Occasion {
+  uint64_t tick = 0;
+  std::optional<Condition> when{};  // instead of the tick
+  std::vector<PluginChange> plugins{};
+  std::vector<RowChange> rows{};
+  Place place{};
 };
 
 struct RecordDeclaration {
@@ -81,12 +106,13 @@ struct World {
   std::vector<RowDeclaration> rows;
   std::map<std::string, std::string> texts;  // "robot/leader/model"
   std::vector<InstanceDeclaration> instances;
-  std::vector<SwapDeclaration> swaps;
-  std::vector<ChangeDeclaration> changes;  // in the order of the file; those of one tick come after its swaps
+  std::vector<Occasion> occasions;  // in the order of the file
   std::vector<RecordDeclaration> records;
   std::vector<Warning> warnings;
 
   double until() const { return static_cast<double>(ticks) * dt; }
+  // The same world in which no time passes: all its rows are there, and nothing happens.
+  void stand_still();
 };
 
 // `path` is the file, or a folder with a world.xml. Throws Error.

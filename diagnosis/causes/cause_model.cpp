@@ -33,8 +33,7 @@ World bare_world(const std::filesystem::path& file, const Standard& sets, const 
       return instance->name() == declared.name && edits_world(*instance);
     });
   });
-  bare.swaps.clear();
-  bare.changes.clear();
+  bare.stand_still();
   bare.records.clear();
   return bare;
 }

@@ -1,5 +1,6 @@
 // One robot of a chain that keeps its links: the case study of Fink et al., section 6.
 #include <muster/plugin.hpp>
+#include <optional>
 #include <string>
 
 #include "own_radio.hpp"
@@ -20,8 +21,10 @@ struct ControlConnectivity {
       "rest on it. A follower holds until its child's link falls to threshold + margin, and is free at half of the\n"
       "margin; it goes back whenever its own parent's link asks for it. So a chain extends only as far as it must,\n"
       "and once it is extended, every link rests at the threshold. A link unheard for `lost` counts as broken.\n"
-      "Switching functions: linear (saturated), tanh, relay (full speed but within half a width). The robot knows\n"
-      "its own odometry and the messages in its inbox: nothing of the channel, the walls or the others.";
+      "Switching functions: linear (saturated), tanh, relay (full speed but within half a width), hysteresis (linear,\n"
+      "but once the link was below the threshold it goes on only when the link is a width above: where a wall makes\n"
+      "the link jump across the threshold, the robot rests before the wall instead of going to and fro). The robot\n"
+      "knows its own odometry and the messages in its inbox: nothing of the channel, the walls or the others.";
   static constexpr auto phase = MUSTER_CONTROL;
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot it steers, heard through the radio of the same name").required(),
@@ -29,7 +32,7 @@ struct ControlConnectivity {
       choice("role", "follower|leader", "a leader goes for the goal, a follower serves its child"),
       reference("parent", "radio", "the radio towards the base, whose link it keeps").required(),
       reference("child", "radio", "the radio towards the leader that a follower serves"),
-      choice("switching", "linear|tanh|relay", "switching function"),
+      choice("switching", "linear|tanh|relay|hysteresis", "switching function"),
       real("threshold", -60, -200, 0, "dBm", "rssi at which it rests").free(),
       real("width", 3, 0.01, 50, "dB", "above the threshold by this much it goes at full speed"),
       real("margin", 6, 0.01, 50, "dB", "a follower stays while its child's link is this much above the threshold"),
@@ -45,6 +48,11 @@ struct ControlConnectivity {
         "arclength[m]? parent[dBm]? child[dBm]? parent_heard[s] child_heard[s] speed[m/s]";
     double arclength, parent, child;          // null before the first reading
     double parent_heard, child_heard, speed;  // times of the last message from each; speed along the roadmap
+  };
+
+  struct Turned {
+    static constexpr const char* columns = "turned";
+    double turned;  // 1 from when the link was below the threshold until it is a width above
   };
 
   explicit ControlConnectivity(Setup& s)
@@ -68,6 +76,7 @@ struct ControlConnectivity {
         command(s.write<Command>("robot/{robot}/command")),
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
+    if (switching == Switching::hysteresis) turned = s.write<Turned>("self/turned");
     if (!leads && child < 0) throw BadInput("a follower has a child; expected child=\"NAME\" or role=\"leader\"");
   }
 
@@ -101,12 +110,22 @@ struct ControlConnectivity {
 
   // Command from -1 to 1. Before the first message of a link its quality is unknown, and the robot waits.
   double urge(const Step& k, const State& now) const {
+    if (turned) *k[*turned] = *k.last(*turned);
     if (is_null(now.parent)) return 0;
-    const double on =
-        k.time() - now.parent_heard > k[lost] ? -1 : switched(switching, (now.parent - k[threshold]) / k[width]);
+    const bool is_lost = k.time() - now.parent_heard > k[lost];
+    const double excess = is_lost ? -1 : (now.parent - k[threshold]) / k[width];
+    const double on = is_lost ? -1 : turning(k, switched(switching, excess), excess);
     if (leads || on < 0) return on;
     if (is_null(now.child)) return 0;
     return on * (k.time() - now.child_heard > k[lost] ? 1 : wanted(now.child - k[threshold], k[margin]));
+  }
+
+  double turning(const Step& k, double on, double excess) const {
+    if (!turned) return on;
+    bool has_turned = k.last(*turned)->turned != 0;
+    const double result = after_turning(on, excess, has_turned);
+    k[*turned]->turned = has_turned;
+    return result;
   }
 
   // Slows down at both ends of the roadmap, with a time constant of a second.
@@ -125,7 +144,8 @@ struct ControlConnectivity {
   Out<Command> command;
   Out<Outgoing> outbox;
   Out<State> state;
-  Roadmap roadmap;  // rebuilt from the file
+  std::optional<Out<Turned>> turned;  // with hysteresis
+  Roadmap roadmap;                    // rebuilt from the file
 };
 
 }  // namespace

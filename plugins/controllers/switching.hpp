@@ -6,12 +6,13 @@
 
 namespace muster {
 
-enum class Switching { linear = 0, tanh, relay };  // in the order of the parameter's choices
+enum class Switching { linear = 0, tanh, relay, hysteresis };  // in the order of the parameter's choices
 
 // From -1 (back) to 1 (on), zero at excess 0; `excess` is the link's level above the threshold, in widths.
 inline double switched(Switching kind, double excess) {
   switch (kind) {
     case Switching::linear:
+    case Switching::hysteresis:
       return std::clamp(excess, -1.0, 1.0);
     case Switching::tanh:
       return std::tanh(excess);
@@ -19,6 +20,14 @@ inline double switched(Switching kind, double excess) {
       return std::abs(excess) < 0.5 ? 0.0 : std::copysign(1.0, excess);
   }
   return 0;
+}
+
+// What hysteresis makes of it: once the link was below the threshold, the robot only goes back to it, and on again when
+// the link is a whole width above. Where a wall makes the link jump across the threshold, it rests on the near side.
+inline double after_turning(double on, double excess, bool& has_turned) {
+  if (excess < 0) has_turned = true;
+  if (excess >= 1) has_turned = false;
+  return has_turned ? std::min(on, 0.0) : on;
 }
 
 // From 0 while the child's link is `margin` [dB] or more above the threshold, to 1 at half of that: a follower rests

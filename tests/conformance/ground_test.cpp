@@ -49,6 +49,34 @@ TEST_P(OnTheGround, StandsStillAtRest) {
   EXPECT_NEAR(state(sim).pose.z, 0, 1e-4);
 }
 
+// One that joins later drives as one that was there from the start; before, it is in nobody's way, and stands still.
+TEST_P(OnTheGround, ARobotJoinsLater) {
+  const std::string late = "<at t='3'><robot name='late' at='0.4 0 0'/></at>";
+  Started sim = run(one + "/>" + late, {}, {{"v", "0.3"}}), alone = run(one + "/>", {}, {{"v", "0.3"}});
+  const Pose before = state(sim, "late").pose;
+  std::vector<State> way;
+  for (int i = 0; i < 299; ++i) sim.step(), alone.step(), way.push_back(state(sim));  // and one to start with
+  EXPECT_TRUE(same_bits(before, state(sim, "late").pose));
+  const auto off = [&](const State& a, const State& b) { return std::hypot(a.pose.x - b.pose.x, a.pose.y - b.pose.y); };
+  EXPECT_LE(off(state(sim), state(alone)), GetParam().course);
+  EXPECT_GT(state(sim).pose.x, 0.8);  // it has driven through the other's place
+  double farthest = 0;
+  for (const State& of_a : way) {
+    sim.step();
+    State shifted = state(sim, "late");
+    shifted.pose.x -= 0.4;
+    farthest = std::max(farthest, off(shifted, of_a));
+  }
+  EXPECT_LE(farthest, 0.01);  // a has its first tick from the plugin that starts it
+  EXPECT_GT(state(sim, "late").pose.x, 0.4 + 0.8);
+}
+
+TEST_P(OnTheGround, ARunThatARobotJoinsIsTheSameAgain) {
+  const std::string late = "<at t='1'><robot name='late' at='0.4 1 0'/></at><at t='2'><leave robot='late'/></at>";
+  for (const int half : {50, 120})
+    expect_same_bits([&](int workers) { return run(one + "/>" + late, {}, bends, workers); }, half);
+}
+
 TEST_P(OnTheGround, RollsOnAnArcOfSpeedOverTurnRate) {
   const double v = 0.3, w = 0.5, r = v / w;
   Started sim = run(one + "/>",

@@ -1,4 +1,4 @@
-// What a world file plans for times of the run: numbers that are set, plugins exchanged, robots that leave.
+// What a world file plans, at times and on conditions: numbers set, plugins exchanged, robots that join and leave.
 #include "toy_world.hpp"
 
 namespace muster {
@@ -63,6 +63,9 @@ TEST_F(Planned, ARobotLeaves) {
   EXPECT_FALSE(robots.alive[0]);
   EXPECT_TRUE(robots.alive[1]);
   EXPECT_THAT(messages(sim), ElementsAre("2 : robot \"a\" leaves", "2 : radio \"a\" leaves"));
+  Simulation other = run(two_robots + adder + "<station name='s' at='0 0 0'/>\n<at t='1'><leave station='s'/></at>\n");
+  step(other, 3);
+  EXPECT_THAT(other.board().find_set("radio")->alive, ElementsAre(1, 1, 0));
 }
 
 TEST_F(Planned, ADoorOpensByItsWord) {
@@ -88,9 +91,116 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
   EXPECT_EQ(error("<leave robot='c'/>"), "world.xml:5:25: no robot is called \"c\"; expected one of a, b");
   EXPECT_EQ(error("<set path='mover/add'/>"),
             "world.xml:5:11: <set> has no attribute \"value\", which it needs; expected its new value");
-  EXPECT_EQ(error("<stop/>"), "world.xml:5:11: <stop> is no element of <at>; expected one of set, swap, leave");
+  EXPECT_EQ(error("<stop/>"),
+            "world.xml:5:11: <stop> is no element of <at>; expected a plugin (with a dot in its name) or one of set, "
+            "leave, robot, swap, remove");
   EXPECT_EQ(error("<swap at='3' instance='mover' plugin='toy.copy_physics'/>"),
             "world.xml:5:17: <swap> has no attribute \"at\" inside <at>, whose time it has");
+}
+
+// In place of `adder`: moves one robot.
+std::string that_moves(const std::string& robot, const std::string& name) {
+  return "<toy.copy_physics name='" + name + "' to='robot/" + robot + "/pose' columns='" + pose +
+         "' own='true' add='1'/>";
+}
+
+TEST_F(Planned, ARobotJoinsAtItsPlace) {
+  Simulation sim = run(two_robots + adder + "<at t='1'><robot name='late' at='7 0 0'/></at>\n");
+  const Set &robots = *sim.board().find_set("robot"), &radios = *sim.board().find_set("radio");
+  step(sim, 2);
+  EXPECT_THAT(robots.alive, ElementsAre(1, 1, 0));
+  EXPECT_THAT(radios.alive, ElementsAre(1, 1, 0));
+  step(sim);
+  EXPECT_THAT(robots.alive, ElementsAre(1, 1, 1));
+  EXPECT_THAT(radios.alive, ElementsAre(1, 1, 1));
+  EXPECT_THAT(messages(sim), ElementsAre("2 : robot \"late\" joins", "2 : radio \"late\" joins"));
+}
+
+TEST_F(Planned, APluginComesAndGoes) {
+  Simulation sim = run(two_robots + that_moves("a", "first") + "\n<at t='1'>" + that_moves("b", "second") +
+                       "</at>\n<at t='2'><remove instance='second'/></at>\n");
+  step(sim, 6);
+  EXPECT_EQ(x_of(sim), 1 + 6);
+  EXPECT_EQ(cell(sim, "robot/b/pose"), 2 + 2);
+  EXPECT_THAT(messages(sim), ElementsAre("2 second: inserted toy.copy_physics/1", "4 second: removed"));
+}
+
+TEST_F(Planned, AConditionCountsWhereItBeginsToHold) {
+  Simulation sim =
+      run(two_robots + adder + "<at when='robot/a/pose/x above 2'><set path='mover/add' value='-1'/></at>\n" +
+          "<at when='robot/*/pose/x below 1'><set path='mover/add' value='2'/></at>\n");
+  std::vector<double> way;
+  for (int i = 0; i < 9; ++i) step(sim), way.push_back(x_of(sim));
+  EXPECT_THAT(way, ElementsAre(2, 3, 2, 1, 0, 2, 4, 3, 2));
+  EXPECT_EQ(messages(sim)[0], "2 : it holds that robot/a/pose/x above 2");
+  EXPECT_EQ(messages(sim)[1], "2 : set mover/add to -1");
+}
+
+TEST_F(Planned, ConditionsAreRestored) {
+  const std::string world = two_robots + that_moves("a", "mover") +
+                            "<at when='robot/a/pose/x above 2'><set path='mover/add' value='-1'/><robot name='late' "
+                            "at='0 0 0'/>" +
+                            that_moves("late", "second") +
+                            "</at>\n<at when='robot/a/pose/x is 0'><set path='mover/add' value='1'/><remove "
+                            "instance='second'/><leave robot='late'/></at>\n";
+  Simulation sim = run(world);
+  std::vector<Snapshot> all;
+  for (int i = 0; i < 20; ++i) all.push_back(sim.snapshot()), step(sim);
+  const auto said = messages(sim);
+  EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const auto& m) { return m.ends_with("\"late\" joins"); }),
+            4 * 2);
+  const uint64_t digest = sim.digest();
+  for (const Snapshot& from : all) {
+    sim.restore(from);
+    step(sim, static_cast<int>(20 - from.tick));
+    EXPECT_EQ(sim.digest(), digest) << from.tick;
+    Simulation other = run(world, 3);
+    other.restore(from);
+    step(other, static_cast<int>(20 - from.tick));
+    EXPECT_EQ(other.digest(), digest) << from.tick;
+  }
+}
+
+TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
+  const auto error = [&](const std::string& planned) {
+    return error_of([&] { run(two_robots + adder + planned + "\n"); });
+  };
+  const auto when = [&](const std::string& condition) {
+    return error("<at when='" + condition + "'><leave robot='a'/></at>");
+  };
+  EXPECT_EQ(when("robot/a/pose/x over 3"),
+            "world.xml:5:11: attribute \"when\": \"over\" compares no numbers; expected one of below, above, is");
+  EXPECT_EQ(when("robot/a/pose/x above"),
+            "world.xml:5:11: attribute \"when\": \"robot/a/pose/x above\" is no condition; expected a condition, "
+            "TABLE/COLUMN below, above or is NUMBER, such as \"robot/leader/pose/x above 3\" or "
+            "\"link/base/rover/rssi/rssi below -60\"");
+  EXPECT_EQ(when("robot/a/pose/x above 3m"),
+            "world.xml:5:11: attribute \"when\": \"3m\" is not a number; \"m\" follows the number: units are fixed "
+            "and not written; expected a number to compare with");
+  EXPECT_EQ(when("robot/a/pose/u above 3"),
+            "world.xml:5:11: the table robot/*/pose has no column \"u\"; expected one of x, y, z, qw, qx, qy, qz");
+  EXPECT_EQ(when("robot/c/pose/x above 3"), "world.xml:5:11: there is no robot \"c\"; expected one of a, b");
+  EXPECT_EQ(when("pose/x is 3"),
+            "world.xml:5:11: \"pose/x\" is no number of a table; expected one such as robot/leader/pose/x");
+  EXPECT_EQ(error("<at t='1' when='robot/a/pose/x above 3'/>"),
+            "world.xml:5:11: <at> has t=\"...\" and when=\"...\"; expected one of them");
+  EXPECT_EQ(error("<at/>"),
+            "world.xml:5:1: <at> has no attribute \"t\", which it needs; expected a time in seconds, from 0, or "
+            "when=\"...\", a condition");
+  EXPECT_EQ(
+      error("<at t='1'><wall name='w' from='0 0' to='1 0' material='m'/></at>"),
+      "world.xml:5:11: <wall> stands inside <at>, but rows of \"wall\" do not join a run; expected it in <world>");
+  EXPECT_EQ(error("<at t='1'><robot name='a' at='0 0 0'/></at>"),
+            "world.xml:5:11: a second robot is called \"a\"; the first is at world.xml:2:1");
+  EXPECT_EQ(error("<at t='1'>" + that_moves("a", "mover") + "</at>"),
+            "world.xml:5:11: a second instance is called \"mover\"; the first is at world.xml:4:1"
+            "; give one of them a name=\"...\" of its own");
+  EXPECT_EQ(error("<at t='1'><remove instance='moves'/></at>"),
+            "world.xml:5:29: no instance is called \"moves\"; expected mover; did you mean \"mover\"?");
+  EXPECT_EQ(error("<at t='1'><remove instance='mover'/></at><at t='2'><remove instance='mover'/></at>"),
+            "world.xml:5:70: no instance is called \"mover\" then");
+  // Two that write one row are told before the run, too.
+  EXPECT_THAT(error("<at t='1'>" + that_moves("a", "second") + "</at>"), testing::HasSubstr("robot/a/pose"));
 }
 
 }  // namespace

@@ -78,6 +78,8 @@ const Storeys& storeys() {
       {"mcap", {"text"}},
       {"run_log/tables", {"text", "mcap"}},
       {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log/tables"}},
+      // Missions and orders are XML files.
+      {"plugins/controllers", {"plugin_api", "text", "description", "plugins"}},
       // In the place of a robot's hardware.
       {"plugins/devices", {"plugin_api", "text", "ports", "mcap", "run_log/tables"}},
       // A run for those who watch and drive it as it goes.

@@ -73,8 +73,7 @@ World world_for(const std::filesystem::path& file, const std::filesystem::path& 
   std::vector<std::string> told_by_the_data_set;
   tables.put(data, with_clock_in_seconds(tables.read(data), told_by_the_data_set));
   std::erase_if(world.instances, lists_links);
-  std::erase_if(world.swaps, [](const SwapDeclaration& s) { return lists_links(s.replacement); });
-  world.changes.clear();  // readings are evaluated, and no time passes
+  world.stand_still();  // readings are evaluated, and no time passes
   take_settings_from(data, world, tables);
   return world;
 }

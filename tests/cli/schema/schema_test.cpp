@@ -82,6 +82,8 @@ std::string changed(const std::string& from, const std::string& to) {
       R"(<radio.multiwall l0="40"/><network.ideal/><control.beacon radio="base"/><control.steady every="2" robot="r" v="0.5"/>)"
       R"(<swap at="0.5" instance="body"><physics.planar/></swap>)"
       R"(<at t="0.5"><set path="door/d1/state" value="closed"/><leave robot="r"/></at>)"
+      R"(<at when="robot/r/pose/x above 1"><robot name="late" at="0 2 0"/><control.steady name="late" robot="late" v="1"/>)"
+      R"(<remove instance="late"/></at>)"
       R"(<record table="robot/*/pose" every="2"/></world>)";
   const auto at = world.find(from);
   EXPECT_NE(at, world.npos) << from;
@@ -121,10 +123,13 @@ TEST_F(Schema, RefusesWhatACheckRefuses) {
       {"v=\"0.5\"", "v=\"fast\""},
       {"v=\"0.5\"", "v=\"11\""},
       {"<swap at=\"0.5\"", "<swap"},
-      {"<at t=\"0.5\"", "<at"},
       {"<at t=\"0.5\"", "<at t=\"soon\""},
-      {"<leave robot=\"r\"/>", "<leave/>"},
+      {"<leave robot=\"r\"/>", "<leave robots=\"r\"/>"},
       {"<leave robot=\"r\"/>", "<go robot=\"r\"/>"},
+      {"name=\"late\" at", "name=\"r\" at"},
+      {"name=\"late\" at", "name=\"late\" in"},
+      {"<remove instance=\"late\"/>", "<remove/>"},
+      {"<remove instance=\"late\"/>", "<door name=\"d2\" wall=\"w1\" at=\"3\"/>"},
       {"<swap at=\"0.5\"", "<swap at=\"half\""},
       {"<physics.planar/>", "<physics.planar/><physics.planar/>"},
       {" table=\"robot/*/pose\"", ""},

@@ -21,6 +21,19 @@ TEST(SwitchingTest, EveryFunctionRestsAtTheThresholdAndIsOdd) {
   }
 }
 
+TEST(SwitchingTest, WithHysteresisItTurnsOnce) {
+  bool has_turned = false;
+  const auto on = [&](double excess) {
+    return after_turning(switched(Switching::hysteresis, excess), excess, has_turned);
+  };
+  EXPECT_EQ(on(0.7), 0.7);
+  EXPECT_EQ(on(-0.4), -0.4);
+  EXPECT_EQ(on(0.7), 0) << "it rests on the near side";
+  EXPECT_EQ(on(-0.1), -0.1);
+  EXPECT_EQ(on(1), 1) << "a width above it goes on";
+  EXPECT_EQ(on(0.2), 0.2);
+}
+
 TEST(SwitchingTest, AFollowerIsFreeLongBeforeTheThreshold) {
   EXPECT_EQ(wanted(8, 6), 0);
   EXPECT_EQ(wanted(6, 6), 0);

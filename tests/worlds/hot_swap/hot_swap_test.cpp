@@ -14,13 +14,17 @@ constexpr double acceleration = 0.8 * 9.81;  // [m/s2] what all backends declare
 
 const std::filesystem::path folder = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds/hot_swap";
 
-std::unique_ptr<Simulation> hot_swap(std::vector<SwapDeclaration> swaps = {}) {
+std::unique_ptr<Simulation> hot_swap(std::vector<Occasion> swaps = {}) {
   World world = read_world(folder, standard());
-  world.swaps = std::move(swaps);
+  world.occasions = std::move(swaps);
   return std::make_unique<Simulation>(std::move(world), standard(), Options{{MUSTER_PLUGINS_DIR}, 1, {}});
 }
 
 InstanceDeclaration backend(const std::string& plugin) { return {plugin, plugin, 1, {}, {}, {}, {"test"}}; }
+
+Occasion swap(uint64_t tick, const std::string& plugin) {
+  return {.tick = tick, .plugins = {{PluginChange::Kind::swap, "physics", backend(plugin)}}};
+}
 
 std::vector<double> cells(const Simulation& run, const std::string& table) {
   return run.table(table).table->now().data;
@@ -89,9 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, HotSwap, testing::ValuesIn(chain()),
 // same motion on all.
 TEST(HotSwapRun, EndsNearTheRunWithoutSwaps) {
   auto plain = hot_swap();
-  auto swapped = hot_swap({{300, "physics", backend("physics.ode")},
-                           {600, "physics", backend("physics.planar")},
-                           {900, "physics", backend("physics.simbody")}});
+  auto swapped = hot_swap({swap(300, "physics.ode"), swap(600, "physics.planar"), swap(900, "physics.simbody")});
   run_to(*plain, 12);
   run_to(*swapped, 12);
   const auto a = cells(*plain, "robot/*/pose"), b = cells(*swapped, "robot/*/pose");
@@ -122,7 +124,7 @@ TEST(HotSwapRun, GoesThroughMujoco) {
 
 // Planned in the world file and asked for by hand are one thing.
 TEST(HotSwapRun, PlannedSwapsEqualSwapsByHand) {
-  auto planned = hot_swap({{100, "physics", backend("physics.planar")}});
+  auto planned = hot_swap({swap(100, "physics.planar")});
   auto by_hand = hot_swap();
   run_to(*planned, 2);
   run_to(*by_hand, 1);

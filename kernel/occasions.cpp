@@ -1,0 +1,281 @@
+// What the world file plans: at a tick, or each time that a condition begins to hold.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "simulation.hpp"
+#include "text/names.hpp"
+#include "world_file/params.hpp"
+
+namespace muster {
+namespace {
+
+// Throws the error of `act` as one of this place in the world file, where it names none itself.
+template <class Act>
+void at_place(const Place& place, const Act& act) {
+  try {
+    act();
+  } catch (const Error& e) {
+    const bool is_placed = e.place().line > 0 || std::string(e.what()).starts_with(place.file + ':');
+    throw is_placed ? e : Error(e.exit(), place, e.what());
+  }
+}
+
+bool precedes(const Place& a, const Place& b) { return std::tie(a.line, a.column) < std::tie(b.line, b.column); }
+
+bool holds(const Condition& condition, double value) {
+  switch (condition.relation) {
+    case Condition::Relation::below:
+      return value < condition.value;
+    case Condition::Relation::above:
+      return value > condition.value;
+    case Condition::Relation::is:
+      return value == condition.value;
+  }
+  return false;
+}
+
+// "link/base/rover/rssi/rssi" as its parts.
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '/')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+std::size_t column_of(const Table& table, const std::string& name) {
+  const int column = table.columns().find(name);
+  if (column >= 0) return static_cast<std::size_t>(column);
+  std::vector<std::string> valid;
+  for (std::size_t c = 0; c < table.width(); ++c) valid.push_back(table.columns()[c].name);
+  throw Error(Exit::invalid_input,
+              "the table " + table.name() + " has no column " + quote(name) + "; " + suggest(name, valid));
+}
+
+}  // namespace
+
+// The numbers that a condition looks at: of all rows that are there where its row is a star; of a pair of radios none
+// while neither hears the other.
+std::vector<double> Simulation::looked_at(const Condition& condition) const {
+  auto parts = parts_of(condition.path);
+  if (parts.size() < 3)
+    throw Error(Exit::invalid_input,
+                quote(condition.path) + " is no number of a table; expected one such as robot/leader/pose/x");
+  const std::string column = parts.back();
+  parts.pop_back();
+  if (parts.size() == 4 && parts[0] == "link") return of_link(parts[1], parts[2], parts[3], column);
+  const TableView view = table(condition.path.substr(0, condition.path.rfind('/')));
+  const Set& set = view.table->set();
+  if (!set.is_named() && view.row < 0)
+    throw Error(Exit::invalid_input, quote(condition.path) + ": rows of " + set.name +
+                                         " have no names; expected a set such as robot, radio or door, or "
+                                         "link/FROM/TO/QUANTITY/COLUMN");
+  const std::size_t c = column_of(*view.table, column);
+  std::vector<double> values;
+  for (std::size_t r = 0; r < view.rows(); ++r) {
+    const std::size_t row = view.row >= 0 ? static_cast<std::size_t>(view.row) : r;
+    if (!set.is_named() || set.alive[row]) values.push_back(view.at(r, c));
+  }
+  return values;
+}
+
+std::vector<double> Simulation::of_link(const std::string& from, const std::string& to, const std::string& quantity,
+                                        const std::string& column) const {
+  const Set& radios = *board_.find_set("radio");
+  for (const auto& name : {from, to}) {
+    if (radios.find(name) < 0)
+      throw Error(Exit::invalid_input, "no radio is called " + quote(name) + "; " + suggest(name, radios.names));
+  }
+  const TableView asked = table("link/*/" + quantity), ends = table("link/*/ends"),
+                  endpoints = table("endpoint/*/radio");
+  const std::size_t c = column_of(*asked.table, column);
+  const auto is = [&](double end, const std::string& name) {
+    return endpoints.at(static_cast<std::size_t>(end), 0) == radios.find(name);
+  };
+  std::vector<double> values;
+  for (std::size_t r = 0; r < std::min(ends.rows(), asked.rows()); ++r) {
+    if (is(ends.at(r, 0), from) && is(ends.at(r, 1), to)) values.push_back(asked.at(r, c));
+  }
+  return values;
+}
+
+bool Simulation::holds_now(const Occasion& occasion) const {
+  const auto values = looked_at(*occasion.when);
+  return std::any_of(values.begin(), values.end(), [&](double value) { return holds(*occasion.when, value); });
+}
+
+// Which conditions hold: a function of the tables, so that a restored run goes the same way.
+void Simulation::look_at_conditions() {
+  held_.assign(world_.occasions.size(), 0);
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (world_.occasions[i].when) held_[i] = holds_now(world_.occasions[i]);
+  }
+}
+
+// Does once what is planned for a tick: after a failed one the user may have replaced an instance before the retry.
+void Simulation::do_planned() {
+  if (tick_ < planned_from_) return;
+  std::vector<const Occasion*> due;
+  for (const auto& occasion : world_.occasions) {
+    if (!occasion.when && occasion.tick == tick_) due.push_back(&occasion);
+  }
+  happen(due);
+  planned_from_ = tick_ + 1;
+}
+
+// After a tick: what conditions bring that hold since it. What they do may end them again.
+void Simulation::do_conditional() {
+  std::vector<const Occasion*> due;
+  for (std::size_t i = 0; i < world_.occasions.size(); ++i) {
+    const Occasion& occasion = world_.occasions[i];
+    if (!occasion.when) continue;
+    const bool holds = holds_now(occasion);
+    if (holds && !held_[i]) {
+      note("it holds that " + occasion.when->text);
+      due.push_back(&occasion);
+    }
+    held_[i] = holds;
+  }
+  if (due.empty()) return;
+  happen(due);
+  look_at_conditions();
+}
+
+void Simulation::happen(const std::vector<const Occasion*>& due) {
+  for (const Occasion* occasion : due) {
+    for (const auto& planned : occasion->plugins) at_place(planned.place, [&] { change(planned); });
+  }
+  for (const Occasion* occasion : due) {
+    for (const auto& planned : occasion->rows) at_place(planned.place, [&] { change(planned); });
+  }
+}
+
+bool Simulation::has(const std::string& instance) const {
+  return std::any_of(instances_.begin(), instances_.end(), [&](const auto& i) { return i->name() == instance; });
+}
+
+// An instance comes where the file has it, so that the order does not depend on when it came.
+std::size_t Simulation::place_of(const InstanceDeclaration& planned) const {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    if (precedes(instances_[i]->declared().place, planned.place)) at = i + 1;
+  }
+  return at;
+}
+
+// What a condition brings again and is there already is left as it is.
+void Simulation::change(const PluginChange& planned) {
+  switch (planned.kind) {
+    case PluginChange::Kind::swap:
+      return swap(planned.instance, planned.plugin);
+    case PluginChange::Kind::insert:
+      if (!has(planned.instance)) insert_at(place_of(planned.plugin), {planned.plugin});
+      return;
+    case PluginChange::Kind::remove:
+      if (has(planned.instance)) remove(planned.instance);
+  }
+}
+
+double Simulation::value_of(const RowChange& planned, const ParameterInfo& set) const {
+  if (set.declared->kind == MUSTER_REFERENCE)
+    throw Error(Exit::invalid_input,
+                "parameter " + quote(planned.path) + ": a reference is claimed for good; expected a swap");
+  return attribute_values(*set.declared, 1, planned.value, {}, [](const Place&, const std::string&) {}).front();
+}
+
+void Simulation::change(const RowChange& planned) {
+  switch (planned.kind) {
+    case RowChange::Kind::set:
+      set_parameter(planned.path, value_of(planned, parameter(planned.path)));
+      return note("set " + planned.path + " to " + planned.value.value);
+    case RowChange::Kind::join:
+      for (const auto& name : planned.sets) {
+        Set& set = *board_.find_set(name);
+        auto& alive = set.alive[static_cast<std::size_t>(set.find(planned.row))];
+        if (!alive) note(name + ' ' + quote(planned.row) + " joins");
+        alive = 1;
+      }
+      return;
+    case RowChange::Kind::leave:
+      for (const auto& name : planned.sets) {
+        const Set* set = board_.find_set(name);
+        const int row = set ? set->find(planned.row) : -1;
+        if (row >= 0 && set->alive[static_cast<std::size_t>(row)]) leave(name, planned.row);
+      }
+  }
+}
+
+// Goes through all that is planned in its order, conditions last, without a tick: faults are told before the first one.
+void Simulation::rehearse() {
+  std::vector<const Occasion*> all;
+  for (const auto& occasion : world_.occasions) all.push_back(&occasion);
+  std::stable_sort(all.begin(), all.end(), [](const Occasion* a, const Occasion* b) {
+    return std::make_pair(a->when.has_value(), a->tick) < std::make_pair(b->when.has_value(), b->tick);
+  });
+  std::vector<Instance*> there;
+  for (const auto& instance : instances_) there.push_back(instance.get());
+  std::vector<std::unique_ptr<Instance>> made;
+  const auto mark = board_.mark();
+  for (const Occasion* occasion : all) {
+    for (const auto& planned : occasion->plugins) at_place(planned.place, [&] { rehearse(planned, there, made); });
+    if (!occasion->plugins.empty())
+      at_place(occasion->plugins.back().place, [&] { Linker(there, standard_, world_, board_).check(); });
+    for (const auto& planned : occasion->rows) at_place(planned.place, [&] { rehearse(planned, there); });
+    if (occasion->when) at_place(occasion->when->place, [&] { looked_at(*occasion->when); });
+  }
+  made.clear();
+  board_.back_to(mark);
+}
+
+void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& there,
+                          std::vector<std::unique_ptr<Instance>>& made) {
+  const auto found =
+      std::find_if(there.begin(), there.end(), [&](const Instance* each) { return each->name() == planned.instance; });
+  if (planned.kind == PluginChange::Kind::insert) {
+    if (found != there.end()) throw(*found)->refused("is there already");
+    made.push_back(make(planned.plugin));
+    there.push_back(made.back().get());
+    return;
+  }
+  if (found == there.end())
+    throw Error(Exit::invalid_input, "no instance is called " + quote(planned.instance) + " then");
+  if (planned.kind == PluginChange::Kind::remove) {
+    there.erase(found);
+    return;
+  }
+  InstanceDeclaration replacement = planned.plugin;
+  replacement.name = planned.instance;
+  made.push_back(make(std::move(replacement)));
+  const Instance &now = **found, &next = *made.back();
+  if (next.phase() != now.phase())
+    events_.push_back({0, "",
+                       "warning: " + planned.place.text() + ": the swap puts " + next.plugin().id + ", of the phase " +
+                           phase_name(next.phase()) + ", in the place of " + now.plugin().id + ", of " +
+                           phase_name(now.phase()) + ", whose work nobody does then"});
+  *found = made.back().get();
+}
+
+void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>& there) const {
+  if (planned.kind == RowChange::Kind::join) return;
+  if (planned.kind == RowChange::Kind::leave) {
+    const Set* set = board_.find_set(planned.sets.front());
+    if (!set || set->find(planned.row) < 0) living(planned.sets.front(), planned.row);  // throws with the nearest name
+    return;
+  }
+  for (const Instance* each : there) {  // one that comes later, too
+    const auto slash = planned.path.rfind('/');
+    const int number = planned.path.substr(0, slash) == each->name() && slash != std::string::npos
+                           ? each->find_param(planned.path.substr(slash + 1))
+                           : -1;
+    if (number < 0) continue;
+    value_of(planned, {planned.path, &each->plugin().params[number], 0});
+    return;
+  }
+  value_of(planned, parameter(planned.path));
+}
+
+}  // namespace muster

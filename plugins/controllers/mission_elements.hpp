@@ -1,0 +1,79 @@
+// Attributes of elements in the files of missions and orders, and the files themselves.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <muster/plugin.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "text/names.hpp"
+#include "text/number.hpp"
+#include "text/xml.hpp"
+
+namespace muster::missions {
+
+[[noreturn]] inline void refuse(const Place& place, const std::string& what) {
+  throw BadInput(place.text() + ": " + what);
+}
+
+inline void expect_attributes(const XmlElement& element, const std::vector<std::string>& valid) {
+  for (const auto& given : element.attributes) {
+    if (std::find(valid.begin(), valid.end(), given.name) == valid.end())
+      refuse(given.place,
+             "<" + element.name + "> has no attribute " + quote(given.name) + "; " + suggest(given.name, valid));
+  }
+}
+
+inline const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected) {
+  if (const auto* found = element.attribute(name)) return *found;
+  refuse(element.place,
+         "<" + element.name + "> has no attribute " + quote(name) + ", which it needs; expected " + expected);
+}
+
+inline double number(const XmlAttribute& given, double least, double most) {
+  const auto value = parse_real(given.value);
+  if (!value || !(*value >= least && *value <= most))
+    refuse(given.value_place, "attribute " + quote(given.name) + ": " +
+                                  (value ? given.value + " is out of bounds" : why_not_real(given.value)) +
+                                  "; expected a number from " + print_real(least) + " to " + print_real(most));
+  return *value;
+}
+
+inline double number(const XmlElement& element, const char* name, double other, double least, double most) {
+  const auto* given = element.attribute(name);
+  return given ? number(*given, least, most) : other;
+}
+
+inline std::string text(const XmlElement& element, const char* name) {
+  const auto* given = element.attribute(name);
+  return given ? given->value : "";
+}
+
+// The root of the file that a parameter names: below the world's folder, the last in which files are looked for.
+inline XmlElement read_file(const Setup& setup, const char* parameter) {
+  const std::string given = setup.text(parameter);
+  if (given.empty()) throw BadInput(std::string("has no attribute \"") + parameter + "\"; expected an XML file");
+  std::string folder;
+  for (uint32_t i = 0; const char* next = setup.host()->search_path(setup.host(), i); ++i) folder = next;
+  const std::filesystem::path path(given);
+  try {
+    return read_xml(path.is_absolute() ? path : std::filesystem::path(folder) / path);
+  } catch (const Error& e) {
+    throw BadInput(e.what());
+  }
+}
+
+// The row of a radio, by its name at `place`.
+inline double radio_row(const Setup& setup, const std::string& name, const Place& place) {
+  const muster_host* host = setup.host();
+  std::vector<std::string> valid;
+  for (uint32_t row = 0; row < host->rows(host, "radio"); ++row) {
+    valid.emplace_back(host->row_name(host, "radio", row));
+    if (valid.back() == name) return row;
+  }
+  refuse(place, "no radio is called " + quote(name) + "; " + suggest(name, valid));
+}
+
+}  // namespace muster::missions
