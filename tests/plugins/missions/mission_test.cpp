@@ -109,7 +109,8 @@ TEST_F(Missions, ChoosesByALinkAndByAMessage) {
 }
 
 TEST_F(Missions, AMessageEndsTheMission) {
-  folder.write("orders.xml", "<orders><order at='4' to='scout' text='home'/></orders>");
+  folder.write("orders.xml",
+               "<orders><order at='4' to='scout' text='home'/><order at='9' to='scout' text='home'/></orders>");
   Simulation sim =
       run("<repeat><go_to at='3 0'/><go_to at='3 1'/></repeat>\n<on message='home'>\n<go_to at='0 0'/>\n</on>",
           "<control.operator radio='base' orders='orders.xml'/>");
@@ -117,6 +118,8 @@ TEST_F(Missions, AMessageEndsTheMission) {
   EXPECT_NEAR(sim.time(), 4, 0.11);
   ASSERT_TRUE(run_to_line(sim, 3));
   EXPECT_LT(away(sim, 0, 0), 0.15);
+  run_to(sim, 30);
+  EXPECT_EQ(line(sim), 3) << "a second one begins nothing anew";
   EXPECT_THAT(said(sim, "mission"), ElementsAre("the mission is ended by \"home\""));
 }
 
