@@ -35,8 +35,10 @@ std::vector<TextColumn> header(const Table& table) {
   return result;
 }
 
-// Bytes as hexadecimal digits.
+// Bytes as hexadecimal digits; of more than a row may hold, such as a picture, only their number.
 std::string digits(const std::vector<uint8_t>& bytes) {
+  constexpr std::size_t most = 16384;
+  if (bytes.size() > most) return std::to_string(bytes.size()) + " bytes";
   static constexpr char digit[] = "0123456789abcdef";
   std::string result;
   for (const uint8_t byte : bytes) {

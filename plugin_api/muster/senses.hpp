@@ -24,6 +24,16 @@ struct Range {
   double robot, peer, range, t;
 };
 
+// image/*/message: what one camera saw at `t`: `width` x `height` pixels, row by row from the top left; `fov` is the
+// width of its field of view. depth{}: a float a pixel, metres along the camera's axis, as REP 118 has it: infinite
+// where nothing is within its range, minus infinity where something is too near. colour{}: red, green, blue, a byte
+// each.
+struct Image {
+  static constexpr const char* columns = "robot:robot camera t[s] width height fov[rad] depth{} colour{}";
+  static constexpr unsigned payload_column = 6, colour_column = 7;
+  double robot, camera, t, width, height, fov, depth, colour;
+};
+
 // robot/*/gps: a place on the globe (WGS 84, degrees; altitude above the ellipsoid) and the same east, north and up of
 // the world's origin. t: of the last attempt; the place is null where that failed.
 struct Gps {

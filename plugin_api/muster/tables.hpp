@@ -136,6 +136,12 @@ struct Loss {
   double loss;
 };
 
+// Colour of a material, each share from 0 to 1.
+struct Colouring {
+  static constexpr const char* columns = "red green blue";
+  double red, green, blue;
+};
+
 struct Wall {
   static constexpr const char* columns = "x0[m] y0[m] x1[m] y1[m] base[m] height[m] thickness[m] material:material";
   double x0, y0, x1, y1, base, height, thickness, material;

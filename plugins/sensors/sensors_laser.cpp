@@ -10,6 +10,7 @@
 #include "fan.hpp"
 #include "plugins/periods.hpp"
 #include "plugins/scene_rows.hpp"
+#include "robot_solids.hpp"
 #include "scene/slabs.hpp"
 #include "sweep.hpp"
 
@@ -315,20 +316,9 @@ struct SensorsLaser {
     return result;
   }
 
-  // A robot's body and its wheels, which are round and independent of their angle.
   static std::vector<Solid> solids_of(const description::Robot& robot) {
-    std::vector<Solid> result;
-    for (const auto& shape : rigid_shapes(robot, 0)) result.emplace_back(shape);
-    if (!robot.drive) return result;
-    for (const description::Follower& wheel : robot.drive->wheels()) {
-      const description::Joint& joint = robot.joints[wheel.joint];
-      const Isometry3d hub = *frame_on_body(robot, joint.parent) * joint.origin;
-      for (description::Shape shape : rigid_shapes(robot, joint.child)) {
-        shape.pose = hub * shape.pose;
-        result.emplace_back(shape);
-      }
-    }
-    return result;
+    const auto shapes = seen_of(robot);
+    return {shapes.begin(), shapes.end()};
   }
 
   Value noise, share, beam, drop, drop_far, sweep;
