@@ -9,6 +9,7 @@
 
 #include "live_view.hpp"
 #include "pacing.hpp"
+#include "restored_run.hpp"
 #include "run_log_files.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
@@ -193,9 +194,9 @@ World asked_world(RunWords& words) {
 bool run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
   const auto& records = world.records;
   Simulation run(world, standard(), {plugin_path(words.plugins), words.workers, {}});
-  set_parameters(run, words.set);
   check_records(run);
-  if (!words.restore.empty()) run.restore(Snapshot::load(words.restore));
+  if (!words.restore.empty()) restore(run, words.restore);
+  set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)
     throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");

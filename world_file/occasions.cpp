@@ -11,7 +11,7 @@
 namespace muster {
 namespace {
 
-const std::vector<std::string> of_at = {"set", "leave", "robot", "swap", "remove"};
+const std::vector<std::string> of_at = {"set", "leave", "robot", "station", "swap", "remove"};
 constexpr const char* a_time = "a time in seconds, from 0";
 constexpr const char* a_condition =
     "a condition, TABLE/COLUMN below, above or is NUMBER, such as \"robot/leader/pose/x above 3\" or "
@@ -70,7 +70,7 @@ Condition read_condition(const XmlAttribute& given) {
           given.value_place};
 }
 
-Occasion read_occasion(const XmlElement& element, World& world) {
+Occasion read_occasion(const XmlElement& element, const World& world) {
   for (const auto& given : element.attributes) {
     if (given.name != "t" && given.name != "when") refuse_unknown(given, element.name, {"t", "when"});
   }
@@ -83,8 +83,6 @@ Occasion read_occasion(const XmlElement& element, World& world) {
     return occasion;
   }
   occasion.tick = tick_of(needed(element, "t", "a time in seconds, from 0, or when=\"...\", a condition"), world);
-  if (occasion.tick >= world.ticks)
-    world.warnings.push_back({element.place, "<at> comes at the end of the run or after it"});
   return occasion;
 }
 
@@ -148,9 +146,7 @@ void read_swap_element(const XmlElement& element, World& world) {
   occasion.tick = tick_of(needed(element, "at", a_time), world);
   occasion.place = element.place;
   occasion.plugins.push_back(read_swap(element));
-  if (occasion.tick >= world.ticks)
-    world.warnings.push_back({element.place, "the swap of " + quote(occasion.plugins[0].instance) +
-                                                 " comes at the end of the run or after it"});
+  occasion.title = "the swap of " + quote(occasion.plugins[0].instance);
   world.occasions.push_back(std::move(occasion));
 }
 

@@ -8,9 +8,21 @@ namespace {
 constexpr double far = 1e6, long_time = 1e9;
 const std::vector<std::string> steps = {"go_to", "wait", "say", "follow", "keep_link", "repeat", "patrol", "choose"};
 
+// Over names, values and nesting: two files of one content are one mission.
+void mix(const XmlElement& element, uint64_t& hash) {
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;  // FNV-1a
+    hash = (hash ^ 0x1f) * 0x100000001b3u;
+  };
+  add(element.name);
+  for (const auto& attribute : element.attributes) add(attribute.name), add(attribute.value);
+  for (const auto& child : element.children) mix(child, hash);
+  add("/");
+}
+
 class Compiler {
  public:
-  explicit Compiler(const FindRadio& find) : find_(find) {}
+  Compiler(const FindRadio& find, double own, bool flies) : find_(find), own_(own), flies_(flies) {}
 
   Program compile(const XmlElement& root) {
     if (root.name != "mission") refuse(root.place, "the root element is <" + root.name + ">; expected <mission>");
@@ -18,6 +30,7 @@ class Compiler {
     for (const auto& child : root.children) {
       if (child.name != "on") step(child);
     }
+    if (program_.code.empty()) refuse(root.place, "<mission> is empty; " + suggest("", steps));
     add(Act::end, root);
     for (const auto& child : root.children) {
       if (child.name == "on") handler(child);
@@ -63,6 +76,8 @@ class Compiler {
     const XmlAttribute& at = needed(element, "at", "a place: x y, or x y z for a robot that flies");
     auto place = parse_reals(at.value, 3);
     if (!place) place = parse_reals(at.value, 2);
+    if (place && place->size() == 3 && !flies_)
+      refuse(at.value_place, "attribute \"at\": a robot on the ground has no height to go to; expected x y");
     if (!place) refuse(at.value_place, "attribute \"at\": " + quote(at.value) + " is no place; expected x y or x y z");
     for (const double value : *place) {
       if (!(std::abs(value) <= far))
@@ -73,7 +88,7 @@ class Compiler {
     made.x = (*place)[0], made.y = (*place)[1], made.z = place->size() > 2 ? (*place)[2] : null();
     made.heading = element.attribute("heading") ? number(element, "heading", 0, -100, 100) : null();
     made.number = number(element, "within", 0.1, 1e-3, far);
-    made.patience = number(element, "patience", 0, 0, long_time);
+    made.patience = number(element, "patience", 0, 1e-3, long_time);
   }
 
   void wait(const XmlElement& element) {
@@ -90,7 +105,7 @@ class Compiler {
     Instruction& made = add(Act::hear, element);
     made.text = await(message);
     made.peer = radio(element, "from");
-    made.patience = number(element, "patience", 0, 0, long_time);
+    made.patience = number(element, "patience", 0, 1e-3, long_time);
   }
 
   void say(const XmlElement& element) {
@@ -109,7 +124,7 @@ class Compiler {
     made.peer = radio(element, "radio");
     made.number = number(element, "distance", 1, 0, far);
     made.text = element.attribute("until") ? await(text(element, "until")) : "";
-    made.patience = number(element, "patience", 0, 0, long_time);
+    made.patience = number(element, "patience", 0, 1e-3, long_time);
     if (made.text.empty() && made.patience == 0)
       refuse(element.place, "<follow> has no end; expected until=\"MESSAGE\" or patience=\"SECONDS\"");
   }
@@ -117,7 +132,7 @@ class Compiler {
   void keep_link(const XmlElement& element) {
     expect_attributes(element, {"to", "above", "margin", "lost"});
     const XmlAttribute& to = needed(element, "to", "a radio");
-    const std::size_t slot = link(find_(to.value, to.value_place), to);
+    const std::size_t slot = link(other(to), to);
     if (std::find(kept_.begin(), kept_.end(), slot) != kept_.end())
       refuse(element.place, "the link to " + quote(to.value) + " is kept already, by an element around this one");
     Instruction& made = add(Act::keep, element);
@@ -157,7 +172,7 @@ class Compiler {
           refuse(place.place, "<" + place.name + "> is no element of <patrol>; expected <place at=\"x y\"/>");
         go_to(place, {"at", "heading"});
         program_.code.back().number = number(element, "within", 0.1, 1e-3, far);
-        program_.code.back().patience = number(element, "patience", 0, 0, long_time);
+        program_.code.back().patience = number(element, "patience", 0, 1e-3, long_time);
       }
     });
   }
@@ -198,14 +213,19 @@ class Compiler {
     const auto *below = element.attribute("below"), *above = element.attribute("above");
     if (!below == !above) refuse(element.place, "<if link=\"...\"> needs one of below=\"dBm\" and above=\"dBm\"");
     Instruction& made = add(Act::test_link, element);
-    made.slot = link(find_(to.value, to.value_place), to);
+    made.slot = link(other(to), to);
     made.below = below;
     made.number = number(below ? *below : *above, -200, 50);
   }
 
   void handler(const XmlElement& element) {
     expect_attributes(element, {"message", "from"});
-    const std::string message = needed(element, "message", "the text of a message").value;
+    const XmlAttribute& given = needed(element, "message", "the text of a message");
+    const std::string message = given.value;
+    for (const Handler& earlier : program_.handlers) {
+      if (earlier.text == message && (earlier.peer < 0 || earlier.peer == radio(element, "from")))
+        refuse(given.value_place, "an earlier <on> takes " + quote(message) + " already");
+    }
     program_.handlers.push_back({await(message), radio(element, "from"), program_.code.size()});
     block(element);
     add(Act::end, element);
@@ -213,7 +233,15 @@ class Compiler {
 
   double radio(const XmlElement& element, const char* name) const {
     const auto* given = element.attribute(name);
-    return given ? find_(given->value, given->value_place) : -1;
+    return given ? other(*given) : -1;
+  }
+
+  double other(const XmlAttribute& given) const {
+    const double row = find_(given.value, given.value_place);
+    if (row == own_)
+      refuse(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
+                                    " is the robot's own radio; expected another");
+    return row;
   }
 
   std::string await(const std::string& message) {
@@ -233,6 +261,8 @@ class Compiler {
   }
 
   const FindRadio& find_;
+  double own_;
+  bool flies_;
   Program program_;
   std::size_t loops_ = 0;
   std::vector<std::size_t> kept_;
@@ -240,6 +270,12 @@ class Compiler {
 
 }  // namespace
 
-Program compile(const XmlElement& root, const FindRadio& find) { return Compiler(find).compile(root); }
+Program compile(const XmlElement& root, const FindRadio& find, double own, bool flies) {
+  Program program = Compiler(find, own, flies).compile(root);
+  uint64_t hash = 0xcbf29ce484222325u;
+  mix(root, hash);
+  program.mark = static_cast<double>(hash >> 11);  // what a double holds
+  return program;
+}
 
 }  // namespace muster::missions

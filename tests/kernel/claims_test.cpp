@@ -166,12 +166,12 @@ TEST_F(Claims, AReadThatNobodyWritesNamesTheNearest) {
       "door/*/shape, door/*/state, "
       "endpoint/*/pose, endpoint/*/radio, floor/*/shape, heard/*/peer, inbox/*/message, instance/r/*/x, "
       "link/*/ends, link/*/rssi, "
-      "material/*/loss, mesh/*/shape, radio/*/mount, "
+      "material/*/colour, material/*/loss, mesh/*/shape, radio/*/mount, "
       "radio/*/traffic, range/*/message, robot/*/charge, robot/*/drive, robot/*/gait, robot/*/geometry, robot/*/gps, "
       "robot/*/imu, robot/*/legs, robot/*/odometry, "
       "robot/*/pose, "
-      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "... (32 in all); "
+      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, "
+      "... (33 in all); "
       "did you mean \"robot/*/charge\"?");
   EXPECT_THAT(
       error_of_world(two_robots + "<toy.copy_physics name='w' to='robot/*/v' as='add'/>\n<toy.copy_radio name='r' "
