@@ -131,7 +131,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
              hexadecimal(run.digest()));
   if (pace > 0) fmt::print("  {:.{}f} times real time\n", pace, pace < 10 ? 1 : 0);
   for (const auto& event : run.events())
-    fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance,
+    fmt::print("  t = {:.9g} s  {}{}{}\n", static_cast<double>(event.tick) * run.world().dt, event.instance,
                event.instance.empty() ? "" : ": ", event.message);
   for (const auto& [instance, tables] : json["observed"].members()) {
     for (const auto& [table, cells] : tables.members()) {
