@@ -34,6 +34,16 @@ Eigen::MatrixXf gains_per_column(const OrthonormalAtoms& unit, Index width, cons
   return statistics(plain, unit.along(x)) / static_cast<float>(width);
 }
 
+// How many independent gains are among atoms (rows) in columns of white noise: the variance of one over that of their
+// mean.
+double independent_gains(const Eigen::MatrixXf& gains) {
+  const Eigen::RowVectorXf means = gains.colwise().mean();
+  const Eigen::VectorXf of_atoms = gains.rowwise().mean();
+  const float one = (gains.colwise() - of_atoms).array().square().mean();
+  const float mean = (means.array() - means.mean()).square().mean();
+  return mean > 0 ? static_cast<double>(one / mean) : static_cast<double>(gains.rows());
+}
+
 }  // namespace
 
 double bulk_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& lead,
@@ -55,6 +65,8 @@ double bulk_inflation(const ModelState& state, const WhitenedModel& model, const
     all.bottomRows(more.rows()) = more;
   }
   if (all.rows() < thresholds::fewest_bulk_atoms) return 1;
+  // Of four radios all have effects where two have: what looks like many candidates are three or four.
+  if (independent_gains(all.rightCols(thresholds::bulk_nulls)) < thresholds::fewest_independent_atoms) return 1;
   std::vector<float> nulls;
   for (Index k = 1; k < all.cols(); ++k) nulls.push_back(median(all.col(k)));
   std::sort(nulls.begin(), nulls.end());

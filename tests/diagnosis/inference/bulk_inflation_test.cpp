@@ -54,5 +54,40 @@ TEST(BulkInflation, IsThatOfALevelThatWandersInTime) {
   EXPECT_GT(inflation_in_time(world, wander), 2);
 }
 
+// Three of four transmitters are off. Ways of saying so are many, but only three of them are independent: all gain
+// beside the first that is named, and are no measure of chance.
+TEST(BulkInflation, IsNotOfAFewThatHaveEffects) {
+  synthetic::Recipe recipe = varied(4, 3000);
+  recipe.transmitters = 4;
+  const auto world = world_of(recipe);
+  const auto is_of = [&](int transmitter) -> Eigen::VectorXd {
+    Eigen::VectorXd result(world.rssi.size());
+    for (Index i = 0; i < result.size(); ++i) result[i] = world.readings.tx[static_cast<std::size_t>(i)] == transmitter;
+    return result;
+  };
+  Candidate pair;
+  pair.id = "pair";
+  pair.covariates = {"tx"};
+  for (int from = 0; from < 4; ++from) {
+    for (int to = 0; to < 4; ++to) {
+      for (const double share : {-1.0, -0.5, 0.5, 1.0}) {
+        if (from != to) pair.design.grid.push_back(Eigen::Vector3d(from, to, share));
+      }
+    }
+  }
+  pair.design.columns = [&](const Eigen::VectorXd& theta) -> Eigen::MatrixXd {
+    return is_of(static_cast<int>(theta[0])) + theta[2] * is_of(static_cast<int>(theta[1]));
+  };
+  const Eigen::VectorXd effect = -9 * is_of(1) + 8 * is_of(2) + 6 * is_of(3);
+  const Problem problem = problem_of(world, effect, {pair});
+  ModelState state(problem, {});
+  const Eigen::VectorXd& theta = pair.design.grid.front();
+  const Candidate& lead = called(problem.candidates, "pair");
+  const Eigen::MatrixXd columns = state.columns_of(lead, theta);
+  Eigen::MatrixXd design(state.rows().size(), state.base().cols() + 1);
+  design << state.base(), columns;
+  EXPECT_EQ(bulk_inflation(state, state.whitened_model(design), lead, columns), 1);
+}
+
 }  // namespace
 }  // namespace muster::inference
