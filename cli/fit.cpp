@@ -3,6 +3,7 @@
 
 #include "diagnosis/report/fit_report.hpp"
 #include "verbs.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -34,6 +35,7 @@ Words words_of(const Arguments& arguments) {
   line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
   line.flag("--json", words.json, "print the result as JSON");
   line.parse(arguments);
+  WrittenFiles::writes_folder(words.out, "--out");
   return words;
 }
 

@@ -8,6 +8,7 @@
 #include "run_log/wide_table.hpp"
 #include "run_options.hpp"
 #include "text/number.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -57,8 +58,15 @@ void print_rewritten(const LogVerbWords& words, const mcap::Rewritten& done, con
              print_real(seconds(done.last_time)));
 }
 
+void check_written(const LogVerbWords& words, const fs::path& out) {
+  WrittenFiles files;
+  files.reads(words.file, "the log");
+  files.writes(out, "--out");
+}
+
 int log_recover(const LogVerbWords& words) {
   const fs::path out = out_of(words, "_recovered.mcap");
+  check_written(words, out);
   const auto done = mcap::rewrite(words.file, out, mcap::Damage::skipped);
   print_rewritten(words, done, out);
   return 0;
@@ -74,6 +82,7 @@ std::uint64_t time_of(const std::optional<std::string>& given, const char* optio
 
 int log_cut(const LogVerbWords& words) {
   if (words.out.empty()) throw Error(Exit::invalid_input, "cut needs --out, the file to write");
+  check_written(words, words.out);
   const mcap::Span span{time_of(words.from, "--from", 0), time_of(words.to, "--to", ~std::uint64_t{0})};
   if (span.first >= span.end)
     throw Error(Exit::invalid_input, "--from " + words.from.value_or("0") + " is not before --to " + *words.to);
@@ -83,6 +92,7 @@ int log_cut(const LogVerbWords& words) {
 
 int log_csv(const LogVerbWords& words) {
   const fs::path out = out_of(words, ".csv");
+  check_written(words, out);
   const auto done = run_log::write_wide(words.file, out, words.columns);
   if (words.json) {
     fmt::print(

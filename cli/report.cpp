@@ -5,6 +5,7 @@
 #include "text/json.hpp"
 #include "verbs.hpp"
 #include "viewer/page.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 
@@ -25,6 +26,13 @@ int run_report(const Arguments& arguments) {
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
   if (out.empty()) out = (std::filesystem::path(folder) / "run.html").string();
+  WrittenFiles files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const auto kind = entry.path().extension();
+    if (kind == ".json" || kind == ".csv") files.reads(entry.path(), "the record");
+  }
+  files.writes(out, "--out");
   const viewer::WrittenPage page = viewer::write_page(folder, out, installation().parts, most);
   if (json) {
     fmt::print("{}\n", Json{{"file", out}, {"bytes", page.bytes}, {"notes", page.notes}}.dump(2));

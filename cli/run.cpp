@@ -17,6 +17,7 @@
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -160,8 +161,20 @@ std::optional<double> speed_of(const RunWords& words) {
   return speed;
 }
 
+void check_written(const RunWords& words) {
+  WrittenFiles files;
+  files.reads_world(words.world);
+  if (words.restore != words.save)
+    files.reads(words.restore, "--restore");  // a state that goes on may stay in one file
+  WrittenFiles::writes_folder(words.out, "--out");
+  files.writes(words.log.mcap, "--mcap");
+  files.writes(words.log.wide, "--wide");
+  files.writes(words.save, "--save");
+}
+
 // Throws Error.
 World asked_world(RunWords& words) {
+  check_written(words);
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
   if (!words.view && (words.view_at.is_paused || !words.view_at.origins.empty()))
     throw Error(Exit::invalid_input, "--paused and --origin need --view beside them");
