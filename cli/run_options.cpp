@@ -51,8 +51,10 @@ void set_parameters(Simulation& run, const std::vector<std::string>& given) {
     const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
       throw invalid(place, "a reference cannot be set on the command line");
     };
-    run.set_parameter(
-        path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
+    const Warn warn = [](const Place& place, const std::string& message) {
+      fmt::print(stderr, "muster: warning: {}: {}\n", place.text(), message);
+    };
+    run.set_parameter(path, attribute_values(*info.declared, 1, attribute, no_rows, warn).at(0));
   }
 }
 

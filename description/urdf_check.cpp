@@ -92,7 +92,8 @@ void check_joint(const Source& source, const XMLElement& joint, const std::strin
   if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
     const bool itself = required(source, *mimic, "joint") == name;
     source.fail(mimic->GetLineNum(),
-                "joint '" + name + "': " + (itself ? "mimics itself" : "<mimic> is not supported"));
+                "joint '" + name + "': " +
+                    (itself ? "mimics itself" : "<mimic> is not supported; leave it out: the joint then moves freely"));
   }
 }
 

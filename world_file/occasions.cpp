@@ -84,7 +84,9 @@ Occasion read_occasion(const XmlElement& element, World& world) {
   }
   occasion.tick = tick_of(needed(element, "t", "a time in seconds, from 0, or when=\"...\", a condition"), world);
   if (occasion.tick >= world.ticks)
-    world.warnings.push_back({element.place, "<at> comes at the end of the run or after it"});
+    world.warnings.push_back(
+        {element.place, "<at> comes at " + print_real(static_cast<double>(occasion.tick) * world.dt) +
+                            " s, at the end of the run (" + print_real(world.until()) + " s) or after it"});
   return occasion;
 }
 
@@ -137,7 +139,7 @@ void read_at(const XmlElement& element, const Standard& standard, World& world) 
       occasion.rows.push_back(joining(child, world));  // of a live set: read_rows() has refused others
     } else {
       throw invalid(child.place, "<" + child.name + "> is no element of <at>; expected a plugin (with a dot in its " +
-                                     "name) or " + suggest(child.name, of_at).substr(9));
+                                     "name) or " + expected_one_of(of_at).substr(9) + did_you_mean(child.name, of_at));
     }
   }
   world.occasions.push_back(std::move(occasion));

@@ -112,10 +112,12 @@ struct ControlMission {
         flies(s.param("moves") == 1),
         radio(own_radio(s)),
         program(compile(read_file(s, "mission"),
-                        [&](const std::string& name, const Place& place) { return radio_row(s, name, place); })),
+                        [&](const std::string& name, const Place& place) { return radio_row(s, name, place); },
+                        radio)),
         inbox(s.read<Incoming>("inbox/{robot}/message")),
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
+    for (const std::string& doubt : program.doubts) s.event("warning: " + doubt);
     if (flies) {
       position = s.read<Position3d>("robot/{robot}/position3d");
       velocity = s.write<Velocity3d>("robot/{robot}/velocity3d");

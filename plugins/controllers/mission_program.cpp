@@ -1,6 +1,7 @@
 #include "mission_program.hpp"
 
 #include "mission_elements.hpp"
+#include "text/doubts.hpp"
 
 namespace muster::missions {
 namespace {
@@ -10,7 +11,7 @@ const std::vector<std::string> steps = {"go_to", "wait", "say", "follow", "keep_
 
 class Compiler {
  public:
-  explicit Compiler(const FindRadio& find) : find_(find) {}
+  Compiler(const FindRadio& find, double own) : find_(find), own_(own) {}
 
   Program compile(const XmlElement& root) {
     if (root.name != "mission") refuse(root.place, "the root element is <" + root.name + ">; expected <mission>");
@@ -18,6 +19,7 @@ class Compiler {
     for (const auto& child : root.children) {
       if (child.name != "on") step(child);
     }
+    if (program_.code.empty()) refuse(root.place, "the mission has no step; " + suggest("", steps));
     add(Act::end, root);
     for (const auto& child : root.children) {
       if (child.name == "on") handler(child);
@@ -71,7 +73,10 @@ class Compiler {
     }
     Instruction& made = add(Act::go_to, element);
     made.x = (*place)[0], made.y = (*place)[1], made.z = place->size() > 2 ? (*place)[2] : null();
-    made.heading = element.attribute("heading") ? number(element, "heading", 0, -100, 100) : null();
+    const XmlAttribute* heading = element.attribute("heading");
+    made.heading = heading ? number(*heading, -1000, 1000) : null();
+    if (const std::string doubt = heading ? angle_doubt(made.heading) : ""; !doubt.empty())
+      program_.doubts.push_back(heading->value_place.text() + ": attribute \"heading\": " + doubt);
     made.number = number(element, "within", 0.1, 1e-3, far);
     made.patience = number(element, "patience", 0, 0, long_time);
   }
@@ -224,6 +229,9 @@ class Compiler {
 
   std::size_t link(double row, const XmlAttribute& given) {
     auto& all = program_.links;
+    if (row == own_)
+      refuse(given.value_place, "attribute " + quote(given.name) + ": a radio has no link to itself; expected another than " +
+                              quote(given.value));
     const auto found = std::find(all.begin(), all.end(), row);
     if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
     if (all.size() == most_links)
@@ -233,6 +241,7 @@ class Compiler {
   }
 
   const FindRadio& find_;
+  double own_;
   Program program_;
   std::size_t loops_ = 0;
   std::vector<std::size_t> kept_;
@@ -240,6 +249,8 @@ class Compiler {
 
 }  // namespace
 
-Program compile(const XmlElement& root, const FindRadio& find) { return Compiler(find).compile(root); }
+Program compile(const XmlElement& root, const FindRadio& find, double own) {
+  return Compiler(find, own).compile(root);
+}
 
 }  // namespace muster::missions

@@ -38,12 +38,13 @@ struct Program {
   std::vector<Handler> handlers;
   std::vector<double> links;         // rows of the radios whose messages are measured
   std::vector<std::string> awaited;  // texts of messages that mean something to it
+  std::vector<std::string> doubts;   // warnings with their places, such as of a heading that looks like degrees
 };
 
 // Finds a radio's row by its name, or throws with the place.
 using FindRadio = std::function<double(const std::string& name, const Place& place)>;
 
-// Throws BadInput with the place in the file.
-Program compile(const XmlElement& root, const FindRadio& find);
+// `own`: the row of the robot's own radio. Throws BadInput with the place in the file.
+Program compile(const XmlElement& root, const FindRadio& find, double own);
 
 }  // namespace muster::missions

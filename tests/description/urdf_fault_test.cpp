@@ -146,7 +146,7 @@ const Case cases[] = {
     {"limits_out_of_order",
      link("a", mass) + link("b", mass) +
          joint("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"),
-     "4: joint 'j': lower limit is above the upper one"},
+     "4: joint 'j': lower limit is above the upper one; are they exchanged?"},
     {"no_limits", link("a", mass) + link("b", mass) + joint("j", "a", "b", "prismatic"),
      "4: joint 'j' has no <limit>; a prismatic joint needs one"},
     {"zero_axis", link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 0'/>"),

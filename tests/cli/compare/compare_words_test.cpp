@@ -79,7 +79,7 @@ TEST(CompareWords, WhatCannotBeRunIsToldAndTheOthersGoOn) {
   EXPECT_THAT(outcome.out, HasSubstr("B against A, to t = 4 s\n"));
   const std::string why = "muster compare: plugin \"physics.plana\": physics_plana.so not found; looked in ";
   EXPECT_THAT(outcome.err, testing::StartsWith("muster: note: physics=physics.plana cannot be run: " + why));
-  EXPECT_THAT(outcome.err, testing::EndsWith("did you mean physics.planar?\n"
+  EXPECT_THAT(outcome.err, testing::EndsWith("did you mean \"physics.planar\"?\n"
                                              "muster: error: physics=physics.plana could not be run\n"));
   const auto alone = folder.muster({"compare", "world.xml", "physics=physics.plana"});
   EXPECT_EQ(alone.exit, 3);

@@ -194,7 +194,20 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(
       refused("<choose><otherwise><wait seconds='1'/></otherwise><if message='a'><wait seconds='1'/></if></choose>"),
       HasSubstr("<if> stands after <otherwise>"));
+  EXPECT_EQ(refused("<keep_link to='scout' above='-60'><wait seconds='1'/></keep_link>"),
+            "2:16: attribute \"to\": a radio has no link to itself; expected another than \"scout\"");
+  EXPECT_EQ(refused(""),
+            "1:1: the mission has no step; expected one of go_to, wait, say, follow, keep_link, repeat, patrol, choose");
   EXPECT_THAT(refused("<choose><if link='base'><wait seconds='1'/></if></choose>"), HasSubstr("needs one of below"));
+}
+
+TEST_F(Missions, AHeadingThatLooksLikeDegreesIsWarnedOf) {
+  const Simulation sim = run("<go_to at='1 0' heading='90'/>\n<go_to at='1 0' heading='-3.1'/>");
+  const std::vector<std::string> events = said(sim, "mission");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_THAT(events[0], testing::StartsWith("warning: "));
+  EXPECT_THAT(events[0],
+              HasSubstr("mission.xml:2:25: attribute \"heading\": 90 rad is more than a full turn; are these degrees?"));
 }
 
 }  // namespace
