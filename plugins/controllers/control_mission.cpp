@@ -111,13 +111,13 @@ struct ControlMission {
         heading_gain(s.value("heading_gain")),
         flies(s.param("moves") == 1),
         radio(own_radio(s)),
-        program(compile(read_file(s, "mission"),
-                        [&](const std::string& name, const Place& place) { return radio_row(s, name, place); },
-                        radio)),
+        program(compile(
+            read_file(s, "mission"),
+            [&](const std::string& name, const Place& place) { return radio_row(s, name, place); }, radio)),
         inbox(s.read<Incoming>("inbox/{robot}/message")),
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
-    for (const std::string& doubt : program.doubts) s.event("warning: " + doubt);
+    for (const std::string& doubt : program.doubts) s.host()->event(s.host(), ("warning: " + doubt).c_str());
     if (flies) {
       position = s.read<Position3d>("robot/{robot}/position3d");
       velocity = s.write<Velocity3d>("robot/{robot}/velocity3d");

@@ -19,7 +19,7 @@ class Compiler {
     for (const auto& child : root.children) {
       if (child.name != "on") step(child);
     }
-    if (program_.code.empty()) refuse(root.place, "the mission has no step; " + suggest("", steps));
+    if (root.children.empty()) refuse(root.place, "the mission has no step; " + suggest("", steps));
     add(Act::end, root);
     for (const auto& child : root.children) {
       if (child.name == "on") handler(child);
@@ -230,8 +230,8 @@ class Compiler {
   std::size_t link(double row, const XmlAttribute& given) {
     auto& all = program_.links;
     if (row == own_)
-      refuse(given.value_place, "attribute " + quote(given.name) + ": a radio has no link to itself; expected another than " +
-                              quote(given.value));
+      refuse(given.value_place, "attribute " + quote(given.name) +
+                                    ": a radio has no link to itself; expected another than " + quote(given.value));
     const auto found = std::find(all.begin(), all.end(), row);
     if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
     if (all.size() == most_links)
@@ -249,8 +249,6 @@ class Compiler {
 
 }  // namespace
 
-Program compile(const XmlElement& root, const FindRadio& find, double own) {
-  return Compiler(find, own).compile(root);
-}
+Program compile(const XmlElement& root, const FindRadio& find, double own) { return Compiler(find, own).compile(root); }
 
 }  // namespace muster::missions

@@ -196,8 +196,9 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
       HasSubstr("<if> stands after <otherwise>"));
   EXPECT_EQ(refused("<keep_link to='scout' above='-60'><wait seconds='1'/></keep_link>"),
             "2:16: attribute \"to\": a radio has no link to itself; expected another than \"scout\"");
-  EXPECT_EQ(refused(""),
-            "1:1: the mission has no step; expected one of go_to, wait, say, follow, keep_link, repeat, patrol, choose");
+  EXPECT_EQ(
+      refused(""),
+      "1:1: the mission has no step; expected one of go_to, wait, say, follow, keep_link, repeat, patrol, choose");
   EXPECT_THAT(refused("<choose><if link='base'><wait seconds='1'/></if></choose>"), HasSubstr("needs one of below"));
 }
 
@@ -206,8 +207,9 @@ TEST_F(Missions, AHeadingThatLooksLikeDegreesIsWarnedOf) {
   const std::vector<std::string> events = said(sim, "mission");
   ASSERT_EQ(events.size(), 1u);
   EXPECT_THAT(events[0], testing::StartsWith("warning: "));
-  EXPECT_THAT(events[0],
-              HasSubstr("mission.xml:2:25: attribute \"heading\": 90 rad is more than a full turn; are these degrees?"));
+  EXPECT_THAT(
+      events[0],
+      HasSubstr("mission.xml:2:26: attribute \"heading\": 90 rad is more than a full turn; are these degrees?"));
 }
 
 }  // namespace
