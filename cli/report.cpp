@@ -22,7 +22,9 @@ int run_report(const Arguments& arguments) {
   bool json = false;
   line.option("folder", folder, "the folder that `muster run --out` wrote").required();
   line.option("-o,--out", out, "the page to write; run.html in the folder if not given");
-  line.option("--most", most, "numbers that the page holds; longer tables are thinned evenly in time").shows_default();
+  line.option("--most", most, "numbers that the page holds; longer tables are thinned evenly in time")
+      .at_least(1)
+      .shows_default();
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
   if (out.empty()) out = (std::filesystem::path(folder) / "run.html").string();
