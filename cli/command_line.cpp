@@ -73,11 +73,24 @@ std::string usage_of(const std::vector<DeclaredOption>& options) {
   return result;
 }
 
+// "until=5" for --until 5; "--set steer/speed 0.1" for steer/speed=0.1.
+std::string too_many(const CLI::App& app, const std::string& word) {
+  std::string hint;
+  const std::string name = "--" + word.substr(0, word.find('='));
+  for (const CLI::Option* each : app.get_options()) {
+    if (each->check_name("--set") && each->count() > 0 && each->results().back().find('=') == std::string::npos)
+      hint = "; did you mean --set " + each->results().back() + "=" + word + "?";
+    if (word.find('=') != std::string::npos && each->check_name(name))
+      hint = "; did you mean " + name + " " + word.substr(word.find('=') + 1) + "?";
+  }
+  return quote(word) + " is one word too many" + hint;
+}
+
 // What is wrong with words that no option takes.
 std::string unexpected(const CLI::App& app) {
   const auto words = app.remaining();
   const auto option = std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.starts_with("-"); });
-  if (option == words.end()) return quote(words.empty() ? "" : words.back()) + " is one word too many";
+  if (option == words.end()) return too_many(app, words.empty() ? "" : words.back());
   std::vector<std::string> valid;
   for (const CLI::Option* each : app.get_options()) {
     for (const auto& name : each->get_lnames()) valid.push_back("--" + name);

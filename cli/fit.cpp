@@ -1,6 +1,8 @@
 // muster fit WORLD --data FILE: the world's free parameters from measurements, and where the world misfits.
 #include <fmt/core.h>
 
+#include <fstream>
+
 #include "diagnosis/report/fit_report.hpp"
 #include "verbs.hpp"
 #include "written_files.hpp"
@@ -39,10 +41,24 @@ Words words_of(const Arguments& arguments) {
   return words;
 }
 
+// The first byte that is no white space; 0 where there is none.
+char first_of(const std::string& path) {
+  std::ifstream file(path);
+  char first = 0;
+  return file >> first ? first : '\0';
+}
+
+void refuse_exchanged(const Words& words) {
+  if (std::filesystem::is_directory(words.world) || first_of(words.world) == '<' || first_of(words.data) != '<') return;
+  throw Error(Exit::invalid_input, "muster fit: --data " + words.data + " begins with '<' as a world does, and " +
+                                       words.world + " does not; expected muster fit WORLD --data TABLE");
+}
+
 }  // namespace
 
 int run_fit(const Arguments& arguments) {
   const Words words = words_of(arguments);
+  refuse_exchanged(words);
   Progress progress("fit");
   progress.at(0);
   const diagnosis::CellOptions cells{words.cell, words.least,

@@ -86,6 +86,11 @@ int log_cut(const LogVerbWords& words) {
   const mcap::Span span{time_of(words.from, "--from", 0), time_of(words.to, "--to", ~std::uint64_t{0})};
   if (span.first >= span.end)
     throw Error(Exit::invalid_input, "--from " + words.from.value_or("0") + " is not before --to " + *words.to);
+  const LogContents contents = contents_of(words.file);
+  if (contents.messages > 0 && span.first > contents.last_time)
+    throw Error(Exit::invalid_input, "--from: " + words.from.value_or("0") + " s is after the end of " + words.file +
+                                         " at " + print_real(static_cast<double>(contents.last_time) / 1e9) +
+                                         " s; nothing is written");
   print_rewritten(words, mcap::rewrite(words.file, words.out, mcap::Damage::refused, span), words.out);
   return 0;
 }

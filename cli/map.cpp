@@ -115,6 +115,11 @@ Grid grid_of(const pic::FloorPlan& plan, const std::vector<Sender>& senders, con
     const pic::Range w = x.range(), h = y.range();
     add(w.low - room, h.low - room), add(w.high + room, h.high + room);
   } else {
+    constexpr double farthest = 100'000;  // m, as of the scene
+    for (const double v : words.area)
+      if (!(std::abs(v) <= farthest))
+        throw Error(Exit::invalid_input,
+                    "--area: " + print_real(v) + " m lies beyond the scene; expected metres within 100000 m");
     add(words.area[0], words.area[1]), add(words.area[2], words.area[3]);
   }
   const double width = x.range().span(), height = y.range().span();

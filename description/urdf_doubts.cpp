@@ -45,6 +45,12 @@ class Doubts {
     robot_.warnings.push_back(source_.file + ":" + std::to_string(element.GetLineNum()) + ": " + what);
   }
 
+  // 0 where it is not given, or no number.
+  static double number(const XMLElement& element, const char* name) {
+    const char* text = element.Attribute(name);
+    return parse_number(text ? text : "").value_or(0);
+  }
+
   void angles(const XMLElement& element, const std::string& owner) {
     const char* text = element.Attribute("rpy");
     const auto values = parse_numbers(text ? text : "");
@@ -59,7 +65,7 @@ class Doubts {
     const XMLElement* joint = element.Parent()->ToElement();
     const char* type = joint ? joint->Attribute("type") : nullptr;
     if (!type || type != std::string("revolute")) return;
-    const double lower = element.DoubleAttribute("lower"), upper = element.DoubleAttribute("upper");
+    const double lower = number(element, "lower"), upper = number(element, "upper");
     const double largest = std::max(std::abs(lower), std::abs(upper));
     if (largest > turn && largest <= degrees_of_turn)
       warn(element, owner + ": limits of " + print_number(lower) + " to " + print_number(upper) +
@@ -67,8 +73,7 @@ class Doubts {
   }
 
   void friction(const XMLElement& element) {
-    const double given = element.DoubleAttribute("friction");
-    if (given > stickiest)
+    if (number(element, "friction") > stickiest)
       warn(element, tag(element) + "friction=\"" + element.Attribute("friction") +
                         "\" is more than any tyre has, some 0.8; is this per cent?");
   }

@@ -158,8 +158,9 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
       "world.xml:4:1: radio.antenna (radio.antenna): step failed at tick 1 (t = 0.1 s): attribute \"file\": it "
       "radiates more than it is fed: its mean gain over all directions is 3.000 dBi; expected at most 0, or 0.5 for "
       "errors of calibration");
-  EXPECT_EQ(refusal("<radio.antenna pattern=\"table\" file=\"degrees.csv\"/>"),
-            "degrees.csv:1:1: column \"azimuth[deg]\" has the wrong unit; expected \"azimuth[rad]\"");
+  EXPECT_EQ(
+      refusal("<radio.antenna pattern=\"table\" file=\"degrees.csv\"/>"),
+      "degrees.csv:1:1: column \"azimuth[deg]\" has the wrong unit; expected \"azimuth[rad]\": 1 deg is 0.0174533 rad");
   EXPECT_EQ(refusal("<radio.antenna radio=\"a\"/><radio.antenna name=\"second\" radio=\"a\"/>"),
             "world.xml:4:27: second (radio.antenna): writes \"radio/a/antenna\"; so does world.xml:4:1: radio.antenna "
             "(radio.antenna); expected one of the two");
