@@ -179,4 +179,43 @@ void check_occasions(const World& world) {
   }
 }
 
+void warn_of_vain_changes(World& world) {
+  struct Change {
+    const RowChange* change;
+    uint64_t tick;
+  };
+  const auto seconds = [&](uint64_t tick) { return print_real(static_cast<double>(tick) * world.dt) + " s"; };
+  std::map<std::string, Change> left, joins;                   // by row
+  std::map<std::pair<uint64_t, std::string>, Place> set_then;  // by tick and path
+  std::vector<const Occasion*> timed;
+  for (const Occasion& occasion : world.occasions)
+    if (!occasion.when) timed.push_back(&occasion);
+  std::stable_sort(timed.begin(), timed.end(), [](const auto* a, const auto* b) { return a->tick < b->tick; });
+  for (const Occasion* occasion : timed)
+    for (const RowChange& change : occasion->rows)
+      if (change.kind == RowChange::Kind::join) joins.insert({change.row, {&change, occasion->tick}});
+  for (const Occasion* occasion : timed) {
+    for (const RowChange& change : occasion->rows) {
+      if (change.kind == RowChange::Kind::set) {
+        const auto [first, is_new] = set_then.insert({{occasion->tick, change.path}, change.place});
+        if (!is_new)
+          world.warnings.push_back({change.place, quote(change.path) + " is set twice at " + seconds(occasion->tick) +
+                                                      "; the first is at " + first->second.text() +
+                                                      ", and the last one counts"});
+      } else if (change.kind == RowChange::Kind::leave) {
+        const auto join = joins.find(change.row);
+        const auto [first, is_new] = left.insert({change.row, {&change, occasion->tick}});
+        if (!is_new)
+          world.warnings.push_back({change.place, quote(change.row) + " has left at " + seconds(first->second.tick) +
+                                                      " (" + first->second.change->place.text() +
+                                                      "); this <leave> does nothing"});
+        else if (join != joins.end() && join->second.tick > occasion->tick)
+          world.warnings.push_back({change.place, quote(change.row) + " leaves at " + seconds(occasion->tick) +
+                                                      ", before it joins at " + seconds(join->second.tick) +
+                                                      "; this <leave> does nothing"});
+      }
+    }
+  }
+}
+
 }  // namespace muster

@@ -183,6 +183,9 @@ class RowReader {
       throw invalid(file.value_place, "attribute \"file\": there is no file " + quote(path.string()));
     files_.push_back({&element, TextTable::read(path), world_.rows.size()});
     const auto& table = files_.back().table;
+    if (table.rows() == 0)
+      world_.warnings.push_back({file.value_place, "attribute \"file\": " + quote(file.value) +
+                                                       " has no rows below its header, so that it adds nothing"});
     const Element& one = single(element);
     const auto names = table.texts(table.require("name", ""));
     for (std::size_t r = 0; r < table.rows(); ++r) {

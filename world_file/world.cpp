@@ -126,7 +126,7 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
   }
 }
 
-void check_names(const World& world) {
+void check_names(World& world) {
   std::map<std::string, Place> seen;
   for (const auto& instance : world.instances) {
     const auto [found, is_new] = seen.emplace(instance.name, instance.place);
@@ -136,6 +136,7 @@ void check_names(const World& world) {
     }
   }
   check_occasions(world);
+  warn_of_vain_changes(world);
 }
 
 }  // namespace

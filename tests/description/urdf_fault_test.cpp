@@ -143,6 +143,10 @@ const Case cases[] = {
      "4: joint 'j': <origin> xyz=\"1 2\" is wrong; expected 3 numbers"},
     {"negative_radius", link("a", "<collision><geometry><sphere radius='-1'/></geometry></collision>"),
      "2: link 'a': the radius of a sphere is not above 0"},
+    {"shape_without_geometry", link("a", "<collision><origin xyz='0 0 1'/></collision>"),
+     "2: link 'a': <collision> has no <geometry>"},
+    {"colour_of_bytes", link("a", "") + "<material name='m'>\n<color rgba='128 128 128 255'/></material>\n",
+     "4: <color> rgba=\"128 128 128 255\": expected four numbers from 0 to 1"},
     {"limits_out_of_order",
      link("a", mass) + link("b", mass) +
          joint("j", "a", "b", "revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"),

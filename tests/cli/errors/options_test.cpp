@@ -83,6 +83,15 @@ TEST_F(Words, AWorldAndItsDataAreNotExchanged) {
       "WORLD --data TABLE");
 }
 
+TEST_F(Words, AFitNeedsAModelOfTheChannel) {
+  folder.write("data.csv", "tx,rx,distance[m],rssi[dBm]\na,b,1,-50\na,b,2,-56\n");
+  if (!std::filesystem::exists(MUSTER_PLUGINS_DIR "/radio_fading.so")) GTEST_SKIP() << "without radio.fading";
+  folder.write("flat.xml", world_of("<radio.fading shadowing=\"0\"/>"));
+  expect_error(folder.muster({"fit", "flat.xml", "--data", "data.csv"}), 2,
+               "no parameter is free: no part of the world's radio channel has one; expected one that does, such as "
+               "<radio.multiwall/>, or --free PATH");
+}
+
 TEST_F(Words, ASwapIsToldByItsOption) {
   EXPECT_THAT(folder
                   .muster({"swap", "world.xml", "--at", "0.5", "--instance", "good", "--plugin", "test.good", "siez=1",
