@@ -122,7 +122,7 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
                                      "> is no element of a world; expected a plugin (with a dot in its name" +
                                      (type ? ": <" + element.name + "." + type->value + "/>" : "") + ") or " +
                                      expected_one_of(valid).substr(9) + did_you_mean(element.name, valid) +
-                                     foreign_element(element.name));
+                                     (type ? "" : foreign_element(element.name)));
   }
 }
 

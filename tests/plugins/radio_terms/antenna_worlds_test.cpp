@@ -172,7 +172,8 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
       "world.xml:4:25: attribute \"pattern\": \"yagi\" is not a choice; expected one of dipole, isotropic, cosine, "
       "sector, table");
   EXPECT_EQ(refusal("<radio.antenna beamwidth=\"65\"/>"),
-            "world.xml:4:27: attribute \"beamwidth\": 65 is out of bounds; expected a number from 0.1 to 3.1 rad");
+            "world.xml:4:27: attribute \"beamwidth\": 65 is out of bounds; expected a number from 0.1 to 3.1 rad; 65 "
+            "degrees are 1.134 rad");
 }
 
 }  // namespace
