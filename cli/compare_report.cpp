@@ -118,7 +118,7 @@ void print_runs(const std::vector<ComparedRun>& runs) {
 // What happened in this run and not in the first.
 void print_events(const std::vector<ComparedRun>& runs) {
   const auto text = [](const Simulation& run, const Event& e) {
-    return fmt::format("t = {} s  {}{}{}", print_real(time_of(run, e.tick)), e.instance, e.instance.empty() ? "" : ": ",
+    return fmt::format("t = {:.9g} s  {}{}{}", time_of(run, e.tick), e.instance, e.instance.empty() ? "" : ": ",
                        e.message);
   };
   std::vector<std::string> of_first;

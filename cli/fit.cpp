@@ -1,6 +1,8 @@
 // muster fit WORLD --data FILE: the world's free parameters from measurements, and where the world misfits.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "diagnosis/report/fit_report.hpp"
@@ -11,7 +13,7 @@ namespace muster::cli {
 namespace {
 
 struct Words {
-  std::string world, data, out, average = "dB";
+  std::string world, data, out, average = "dB", log = "10";
   std::vector<std::string> free, fix, plugins;
   double cell = 0.25;
   int least = 5;
@@ -33,6 +35,9 @@ Words words_of(const Arguments& arguments) {
   line.option("--cell", words.cell, "size of the cells that are averaged, in m").within(0.01, 100.0).shows_default();
   line.option("--least", words.least, "readings below which a cell is left grey").within(1, 1000000).shows_default();
   line.option("--average", words.average, "cell means of dB, or of power").one_of({"dB", "power"}).shows_default();
+  line.option("--log", words.log, "base of the logarithm of distance in which the exponent n is told, too")
+      .one_of({"10", "natural"})
+      .shows_default();
   line.option("--out", words.out, "a folder for pictures");
   line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
   line.flag("--json", words.json, "print the result as JSON");
@@ -54,6 +59,44 @@ void refuse_exchanged(const Words& words) {
                                        words.world + " does not; expected muster fit WORLD --data TABLE");
 }
 
+// The same path loss with natural logarithms, L = l0 + 10 n ln d: n is less by ln 10, and l0 the same. Papers do not
+// always say which they mean, and -60 dBm is elsewhere if it is taken for the other.
+struct NaturalExponent {
+  std::string path;
+  double value, lower95, upper95;
+  double reach, mistaken;  // of -60 dBm in the open [m]: with it, and with its n taken for one of base 10
+};
+
+std::vector<NaturalExponent> natural_exponents(const report::FitReport& report) {
+  constexpr double level = -60;  // [dBm]
+  const double ten = std::log(10.0);
+  std::vector<NaturalExponent> result;
+  const auto& fitted = report.fit().parameters;
+  for (const auto& n : fitted) {
+    if (!n.path.ends_with("/n") || !n.identifiable) continue;
+    const std::string owner = n.path.substr(0, n.path.size() - 1);
+    const auto of = [&](const std::string& name) {
+      const auto found =
+          std::find_if(fitted.begin(), fitted.end(), [&](const auto& p) { return p.path == owner + name; });
+      return found != fitted.end() ? found->value : report.simulation().parameter(owner + name).value;
+    };
+    const double loss = of("tx_power") - of("l0") - level;  // that distance may have [dB]
+    result.push_back({n.path, n.value / ten, n.lower95 / ten, n.upper95 / ten, std::pow(10, loss / (10 * n.value)),
+                      std::pow(10, loss / (10 * n.value / ten))});
+  }
+  return result;
+}
+
+void print_natural(const std::vector<NaturalExponent>& exponents) {
+  for (const auto& n : exponents)
+    fmt::print(
+        "\nWith natural logarithms, L = l0 + 10 n ln d, the same path loss has {} = {:.3f} ({:.3f} to {:.3f}); l0 is "
+        "the "
+        "same.\nIn the open it leaves -60 dBm at {:.4g} m. Taken for an exponent of base 10, that n would put it at "
+        "{:.4g} m.\n",
+        n.path, n.value, n.lower95, n.upper95, n.reach, n.mistaken);
+}
+
 }  // namespace
 
 int run_fit(const Arguments& arguments) {
@@ -67,10 +110,21 @@ int run_fit(const Arguments& arguments) {
                            [&](double share) { progress.at(share); });
   if (!words.out.empty()) report.draw(words.out);
   progress.at(1);
-  if (words.json)
-    fmt::print("{}\n", report.json().dump(2));
-  else
+  const auto natural = words.log == "natural" ? natural_exponents(report) : std::vector<NaturalExponent>{};
+  if (words.json) {
+    Json json = report.json();
+    for (const auto& n : natural)
+      json["natural"].push_back({{"name", n.path},
+                                 {"value", n.value},
+                                 {"lower95", n.lower95},
+                                 {"upper95", n.upper95},
+                                 {"reach_of_-60_dbm_m", n.reach},
+                                 {"reach_if_taken_for_base_10_m", n.mistaken}});
+    fmt::print("{}\n", json.dump(2));
+  } else {
     report.print();
+    print_natural(natural);
+  }
   return static_cast<int>(report.fit().not_identifiable.empty() ? Exit::done : Exit::check_failed);
 }
 

@@ -10,6 +10,7 @@
 #include "double_terms.hpp"
 #include "live_view.hpp"
 #include "pacing.hpp"
+#include "restored_run.hpp"
 #include "run_log_files.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
@@ -132,7 +133,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
              hexadecimal(run.digest()));
   if (pace > 0) fmt::print("  {:.{}f} times real time\n", pace, pace < 10 ? 1 : 0);
   for (const auto& event : run.events())
-    fmt::print("  t = {} s  {}{}{}\n", print_real(static_cast<double>(event.tick) * run.world().dt), event.instance,
+    fmt::print("  t = {:.9g} s  {}{}{}\n", static_cast<double>(event.tick) * run.world().dt, event.instance,
                event.instance.empty() ? "" : ": ", event.message);
   for (const auto& [instance, tables] : json["observed"].members()) {
     for (const auto& [table, cells] : tables.members()) {
@@ -210,10 +211,10 @@ World asked_world(RunWords& words) {
 bool run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
   const auto& records = world.records;
   Simulation run(world, standard(), {plugin_path(words.plugins), words.workers, {}});
-  set_parameters(run, words.set);
   check_records(run);
   for (const std::string& term : double_terms(run)) fmt::print(stderr, "muster: warning: {}\n", term);
-  if (!words.restore.empty()) run.restore(Snapshot::load(words.restore));
+  if (!words.restore.empty()) restore(run, words.restore);
+  set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)
     throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");

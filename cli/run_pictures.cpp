@@ -104,9 +104,9 @@ RunPictures::Moment RunPictures::moment(const Simulation& run) const {
   for (std::size_t i = 0; i < ends.size(); ++i)
     result.radios.at(static_cast<std::size_t>(ends[i].radio)) = {places[i].x, places[i].y};
   for (const Link& link : links_) {
-    const TableView chain = run.table(link.table);
-    result.rssi.push_back(chain.at(0, link.rssi));
-    result.smooth.push_back(chain.at(0, link.smooth));
+    const auto chain = run.find_table(link.table);  // none where its plugin is gone
+    result.rssi.push_back(chain ? chain->at(0, link.rssi) : nothing);
+    result.smooth.push_back(chain ? chain->at(0, link.smooth) : nothing);
   }
   if (moments_.empty()) return result;
   for (std::size_t i = 0; i < std::min(result.robots.size(), moments_.front().robots.size()); ++i) {

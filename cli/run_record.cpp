@@ -28,7 +28,7 @@ const char* word_of(SetKind kind) {
 
 RunRecord::RunRecord(const Simulation& run, const std::vector<RecordDeclaration>& tables,
                      const std::filesystem::path& folder, const Library::SearchPath& plugins)
-    : folder_(folder), recorder_(run, tables, folder), scene_(run, plugins) {
+    : folder_(folder), recorder_(run, tables, folder), scene_(run, plugins), listed_(listed(run)) {
   for (const char* of_an_earlier_run : {viewer::run_file, "run.html"}) {
     std::error_code ignored;
     std::filesystem::remove(folder / of_an_earlier_run, ignored);
@@ -56,7 +56,7 @@ viewer::RecordFolder RunRecord::so_far(const Simulation& run, Json outcome) {
   const Json scene = scene_.json(run);
   outcome["notes"] = scene_.notes();
   recorder_.flush();
-  auto tables = closed_.empty() ? listed(run) : closed_;
+  auto tables = closed_.empty() ? listed_ : closed_;
   if (closed_.empty()) {
     for (auto& table : tables) table.file += ".part";
   }
@@ -64,7 +64,7 @@ viewer::RecordFolder RunRecord::so_far(const Simulation& run, Json outcome) {
 }
 
 std::vector<std::filesystem::path> RunRecord::close(const Simulation& run, Json outcome) {
-  closed_ = listed(run);
+  closed_ = listed_;
   tables_ = recorder_.close();
   complete(run, outcome);
   const Json scene = scene_.json(run);

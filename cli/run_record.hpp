@@ -36,6 +36,7 @@ class RunRecord {
   Recorder recorder_;
   viewer::RunScene scene_;
   std::vector<std::filesystem::path> tables_;
+  std::vector<viewer::RecordedTable> listed_;  // as they were at the start: a plugin may take its table with it
   std::vector<viewer::RecordedTable> closed_;
 };
 

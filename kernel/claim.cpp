@@ -90,6 +90,16 @@ void check_references(const Claim& claim, const Instance& instance, const Blackb
   }
 }
 
+TableName table_of(const Condition& condition) {
+  const std::string& path = condition.path;
+  const auto column = path.rfind('/');
+  const auto quantity = column == path.npos || column == 0 ? path.npos : path.rfind('/', column - 1);
+  if (quantity == path.npos) return {path, "*", "", ""};
+  std::string set = path.substr(0, path.find('/'));
+  if (set == "instance") set = path.substr(0, quantity);
+  return {set, "*", path.substr(quantity + 1, column - quantity - 1), ""};
+}
+
 const SetDeclaration* standard_set(const Standard& standard, const std::string& set) {
   for (const auto& known : standard.sets) {
     if (set == known.name) return &known;

@@ -19,6 +19,9 @@ void check_references(const Claim& claim, const Instance& instance, const Blackb
 
 // The standard quantity of that name, or null.
 const Quantity* standard_quantity(const Standard& standard, const TableName& name);
+// The table that a condition of the world file looks at.
+TableName table_of(const Condition& condition);
+
 const SetDeclaration* standard_set(const Standard& standard, const std::string& set);
 
 // Restricts a robot's controller to its own sensed rows, inbox and outbox. Throws Error for anything else.

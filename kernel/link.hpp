@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ class Linker {
  public:
   // Instances in the order of the world file.
   Linker(const std::vector<Instance*>& instances, const Standard& standard, const World& world, Blackboard& board);
+
+  // Tables that a plugin which joins later will write: they may be read before.
+  void promise(const std::set<std::string>& tables) { promised_ = tables; }
 
   // A plugin that a read, a stage or a record of the world needs and no instance provides: the id of a table's declared
   // provider, and what needs it.
@@ -118,6 +122,7 @@ class Linker {
   std::map<Table*, std::vector<Instance*>> writers_of_;
   std::map<const Table*, int> held_by_;  // of the old tables: the number of new ones that inherit from each
   std::vector<std::string> dropped_;
+  std::set<std::string> promised_;
 };
 
 }  // namespace muster

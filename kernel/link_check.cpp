@@ -74,6 +74,13 @@ std::vector<Linker::Missing> Linker::missing_providers() const {
     const auto claimed = claimed_.find(name.logical());
     if (claimed == claimed_.end() || !claimed->second.is_written()) ask_for(name, record.place, "record");
   }
+  for (const auto& occasion : world_.occasions) {
+    if (!occasion.when) continue;
+    const TableName name = table_of(*occasion.when);
+    const auto claimed = claimed_.find(name.logical());
+    if (board_.find_set(name.set) && (claimed == claimed_.end() || !claimed->second.is_written()))
+      ask_for(name, occasion.when->place, "when");
+  }
   return result;
 }
 
@@ -182,7 +189,7 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
     const bool found = claim.name.part.empty()
                            ? c.is_written() || is_of_the_world(logical)
                            : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.name == name; });
-    if (!found && !(claim.flags & MUSTER_OPTIONAL)) {
+    if (!found && !(claim.flags & MUSTER_OPTIONAL) && !promised_.count(name)) {
       throw by.instance->refused("reads " + quote(name) + ", which nobody writes; " +
                                  expected_writer(claim.name, name));
     }

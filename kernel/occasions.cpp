@@ -1,8 +1,11 @@
 // What the world file plans: at a tick, or each time that a condition begins to hold.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
+#include <utility>
 
+#include "claim.hpp"
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "world_file/params.hpp"
@@ -103,8 +106,14 @@ std::vector<double> Simulation::of_link(const std::string& from, const std::stri
   return values;
 }
 
+// A number that is not there meets no condition: its table may be of a plugin that comes later or went.
 bool Simulation::holds_now(const Occasion& occasion) const {
-  const auto values = looked_at(*occasion.when);
+  std::vector<double> values;
+  try {
+    values = looked_at(*occasion.when);
+  } catch (const Error&) {
+    return false;
+  }
   return std::any_of(values.begin(), values.end(), [&](double value) { return holds(*occasion.when, value); });
 }
 
@@ -127,28 +136,33 @@ void Simulation::do_planned() {
   planned_from_ = tick_ + 1;
 }
 
-// After a tick: what conditions bring that hold since it. What they do may end them again.
+// After a tick: what conditions bring that hold since it, or since what another brought; each at most once a tick.
 void Simulation::do_conditional() {
-  std::vector<const Occasion*> due;
-  for (std::size_t i = 0; i < world_.occasions.size(); ++i) {
-    const Occasion& occasion = world_.occasions[i];
-    if (!occasion.when) continue;
-    const bool holds = holds_now(occasion);
-    if (holds && !held_[i]) {
-      note("it holds that " + occasion.when->text);
-      due.push_back(&occasion);
+  std::vector<char> happened(world_.occasions.size());
+  while (true) {
+    std::vector<const Occasion*> due;
+    for (std::size_t i = 0; i < world_.occasions.size(); ++i) {
+      const Occasion& occasion = world_.occasions[i];
+      if (!occasion.when) continue;
+      const bool holds = holds_now(occasion);
+      if (holds && !held_[i] && !happened[i]) {
+        note("it holds that " + occasion.when->text);
+        due.push_back(&occasion);
+        happened[i] = 1;
+      }
+      held_[i] = holds;
     }
-    held_[i] = holds;
+    if (due.empty()) return;
+    happen(due);
   }
-  if (due.empty()) return;
-  happen(due);
-  look_at_conditions();
 }
 
 void Simulation::happen(const std::vector<const Occasion*>& due) {
+  std::vector<const PluginChange*> plugins;
   for (const Occasion* occasion : due) {
-    for (const auto& planned : occasion->plugins) at_place(planned.place, [&] { change(planned); });
+    for (const auto& planned : occasion->plugins) plugins.push_back(&planned);
   }
+  if (!plugins.empty()) change(plugins);
   for (const Occasion* occasion : due) {
     for (const auto& planned : occasion->rows) at_place(planned.place, [&] { change(planned); });
   }
@@ -167,16 +181,56 @@ std::size_t Simulation::place_of(const InstanceDeclaration& planned) const {
   return at;
 }
 
+// All of them at once: what one needs another may bring.
+void Simulation::change(const std::vector<const PluginChange*>& planned) {
+  std::vector<const Instance*> order;
+  for (const auto& instance : instances_) order.push_back(instance.get());
+  std::vector<std::unique_ptr<Instance>> aside;
+  std::vector<Event> told;
+  guarded([&] {
+    try {
+      for (const PluginChange* each : planned) at_place(each->place, [&] { change(*each, aside, told); });
+      at_place(planned.back()->place, [&] { relink(); });
+    } catch (...) {
+      put_back(order, aside);
+      throw;
+    }
+  });
+  for (const auto& instance : instances_) {
+    if (std::find(order.begin(), order.end(), instance.get()) == order.end()) take_events(*instance, tick_);
+  }
+  events_.insert(events_.end(), told.begin(), told.end());
+}
+
 // What a condition brings again and is there already is left as it is.
-void Simulation::change(const PluginChange& planned) {
+void Simulation::change(const PluginChange& planned, std::vector<std::unique_ptr<Instance>>& aside,
+                        std::vector<Event>& told) {
+  const std::string& name = planned.instance;
+  const auto say = [&](const std::string& what) { told.push_back({tick_, name, what}); };
   switch (planned.kind) {
-    case PluginChange::Kind::swap:
-      return swap(planned.instance, planned.plugin);
-    case PluginChange::Kind::insert:
-      if (!has(planned.instance)) insert_at(place_of(planned.plugin), {planned.plugin});
+    case PluginChange::Kind::swap: {
+      const auto at = find(name);
+      InstanceDeclaration replacement = planned.plugin;
+      replacement.name = name;
+      aside.push_back(std::exchange(instances_[at], make(std::move(replacement))));
+      const auto& plugin = instances_[at]->plugin();
+      return say("swapped from " + aside.back()->declared().plugin + " to " + plugin.id +
+                 (plugin.cannot_hold ? std::string("; it cannot hold ") + plugin.cannot_hold : ""));
+    }
+    case PluginChange::Kind::insert: {
+      if (has(name)) return say("is there already");
+      auto made = make(planned.plugin);
+      say(std::string("inserted ") + made->plugin().id);
+      instances_.insert(instances_.begin() + static_cast<std::ptrdiff_t>(place_of(planned.plugin)), std::move(made));
       return;
-    case PluginChange::Kind::remove:
-      if (has(planned.instance)) remove(planned.instance);
+    }
+    case PluginChange::Kind::remove: {
+      if (!has(name)) return say("is not there, and is not removed");
+      const auto at = instances_.begin() + static_cast<std::ptrdiff_t>(find(name));
+      aside.push_back(std::move(*at));
+      instances_.erase(at);
+      say("removed");
+    }
   }
 }
 
@@ -220,15 +274,37 @@ void Simulation::rehearse() {
   for (const auto& instance : instances_) there.push_back(instance.get());
   std::vector<std::unique_ptr<Instance>> made;
   const auto mark = board_.mark();
+  std::set<std::string> gone;  // rows that are not there then, as far as times go
+  for (const auto& row : world_.rows) {
+    if (row.joins_later) gone.insert(row.name);
+  }
   for (const Occasion* occasion : all) {
+    if (!occasion->when) warn_of_idle(*occasion, gone);
     for (const auto& planned : occasion->plugins) at_place(planned.place, [&] { rehearse(planned, there, made); });
     if (!occasion->plugins.empty())
-      at_place(occasion->plugins.back().place, [&] { Linker(there, standard_, world_, board_).check(); });
+      at_place(occasion->plugins.back().place, [&] {
+        Linker linker(there, standard_, world_, board_);
+        linker.promise(promised_);
+        linker.check();
+      });
     for (const auto& planned : occasion->rows) at_place(planned.place, [&] { rehearse(planned, there); });
-    if (occasion->when) at_place(occasion->when->place, [&] { looked_at(*occasion->when); });
+    if (occasion->when && !promised_.count(table_of(*occasion->when).logical()))
+      at_place(occasion->when->place, [&] { looked_at(*occasion->when); });
+    if (!occasion->when && occasion->tick >= world_.ticks)
+      note("warning: " + occasion->place.text() + ": " + occasion->title + " comes at the end of the run or after it");
   }
   made.clear();
   board_.back_to(mark);
+}
+
+// A robot that leaves before it joins, or twice.
+void Simulation::warn_of_idle(const Occasion& occasion, std::set<std::string>& gone) {
+  for (const auto& planned : occasion.rows) {
+    if (planned.kind == RowChange::Kind::join) gone.erase(planned.row);
+    if (planned.kind == RowChange::Kind::leave && !gone.insert(planned.row).second)
+      note("warning: " + planned.place.text() + ": " + quote(planned.row) +
+           " is not there then, and <leave> does nothing");
+  }
 }
 
 void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& there,
@@ -262,7 +338,9 @@ void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& t
 void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>& there) const {
   if (planned.kind == RowChange::Kind::join) return;
   if (planned.kind == RowChange::Kind::leave) {
-    const Set* set = board_.find_set(planned.sets.front());
+    const Set *set = board_.find_set(planned.sets.front()), *robots = board_.find_set("robot");
+    if (planned.sets.size() == 1 && robots->find(planned.row) >= 0)
+      throw Error(Exit::invalid_input, quote(planned.row) + " is a robot; expected robot=\"" + planned.row + '"');
     if (!set || set->find(planned.row) < 0) living(planned.sets.front(), planned.row);  // throws with the nearest name
     return;
   }
@@ -275,6 +353,11 @@ void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>
     value_of(planned, {planned.path, &each->plugin().params[number], 0});
     return;
   }
+  const std::string owner = planned.path.substr(0, planned.path.rfind('/'));
+  const bool is_there =
+      std::any_of(there.begin(), there.end(), [&](const Instance* each) { return each->name() == owner; });
+  if (has(owner) && !is_there)
+    throw Error(Exit::invalid_input, quote(owner) + " is removed by then, and has no parameters");
   value_of(planned, parameter(planned.path));
 }
 

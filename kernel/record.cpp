@@ -96,7 +96,9 @@ std::vector<Recorder::File> Recorder::files() const {
 
 void Recorder::write(const Simulation& run) {
   for (auto& [file, writer] : files_) {
-    const TableView view = run.table(file.table);
+    const auto found = run.find_table(file.table);
+    if (!found) continue;  // it went with a plugin
+    const TableView view = *found;
     const Table& table = *view.table;
     const Set& set = table.set();
     if (set.kind != SetKind::queue && run.tick() % file.every != 0)

@@ -5,6 +5,7 @@
 
 #include "simulation.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 namespace {
@@ -36,6 +37,10 @@ bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& ce
 }  // namespace
 
 void Simulation::check_fits(const Snapshot& snapshot) const {
+  if (snapshot.dt != world_.dt)
+    throw Error(Exit::invalid_input, "the snapshot was saved at ticks of " + print_real(snapshot.dt) +
+                                         " s, and here they are of " + print_real(world_.dt) + " s; expected dt=\"" +
+                                         print_real(snapshot.dt) + '"');
   for (const auto& instance : instances_) {
     const auto found = snapshot.instances.find(instance->name());
     if (found == snapshot.instances.end()) refuse("it has no instance " + quote(instance->name()));
@@ -125,6 +130,16 @@ bool Simulation::put_instances(const Snapshot& snapshot, std::vector<std::unique
   return changed;
 }
 
+// Undoes a change of instances: those of `order` are all here or aside; the others go.
+void Simulation::put_back(const std::vector<const Instance*>& order, std::vector<std::unique_ptr<Instance>>& aside) {
+  for (auto& instance : instances_) aside.push_back(std::move(instance));
+  instances_.clear();
+  for (const Instance* each : order)
+    instances_.push_back(std::move(
+        *std::find_if(aside.begin(), aside.end(), [&](const auto& instance) { return instance.get() == each; })));
+  aside.clear();
+}
+
 // Links with empty tables, which a snapshot is to fill.
 void Simulation::relink_anew() {
   batches_.clear();
@@ -160,12 +175,7 @@ void Simulation::restore(const Snapshot& snapshot) {
     check_fits(snapshot);
   } catch (...) {
     batches_.clear();
-    for (auto& instance : instances_) aside.push_back(std::move(instance));
-    instances_.clear();
-    for (const Instance* each : order)
-      instances_.push_back(std::move(
-          *std::find_if(aside.begin(), aside.end(), [&](const auto& instance) { return instance.get() == each; })));
-    aside.clear();
+    put_back(order, aside);
     board_.back_to(mark);
     relink_anew();
     put(own);

@@ -47,6 +47,11 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
   rehearse();
   look_at_conditions();
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (held_[i])
+      note("warning: " + world_.occasions[i].place.text() + ": it holds from the start that " +
+           world_.occasions[i].when->text + ", and so begins only when it has ceased to");
+  }
 }
 
 Simulation::~Simulation() = default;
@@ -75,19 +80,57 @@ std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration) {
   return std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
 }
 
-// Adds the declared provider of each standard quantity that is read but has no writer, as if the world file named it.
+// What the world file plans to insert and to swap in, to be looked at.
+std::vector<std::unique_ptr<Instance>> Simulation::make_planned() {
+  std::vector<std::unique_ptr<Instance>> made;
+  for (const auto& occasion : world_.occasions) {
+    for (const auto& change : occasion.plugins) {
+      if (change.kind == PluginChange::Kind::remove) continue;
+      InstanceDeclaration declared = change.plugin;
+      declared.name = change.instance;
+      made.push_back(make(std::move(declared)));
+    }
+  }
+  return made;
+}
+
+// Adds the declared provider of each standard quantity that is read but has no writer, as if the world file named it;
+// also for what joins later.
 void Simulation::add_providers() {
   while (true) {
+    const auto mark = board_.mark();
+    auto planned = make_planned();
     std::vector<Instance*> all;
     for (const auto& instance : instances_) all.push_back(instance.get());
+    for (const auto& instance : planned) all.push_back(instance.get());
     auto missing = Linker(all, standard_, world_, board_).missing_providers();
+    promised_.clear();
+    for (const Instance* instance : all) {
+      const bool is_there =
+          std::any_of(instances_.begin(), instances_.end(), [&](const auto& i) { return i.get() == instance; });
+      if (is_there && !is_to_be_removed(instance->name())) continue;
+      for (const Claim& claim : instance->claims())
+        if (!claim.file && claim.kind != MUSTER_READ) promised_.insert(claim.name.logical());
+    }
     std::erase_if(missing, [&](const Linker::Missing& m) {
       return std::any_of(all.begin(), all.end(), [&](const Instance* i) { return i->declared().plugin == m.plugin; });
     });
+    if (!planned.empty()) {
+      planned.clear();
+      board_.back_to(mark);
+    }
     if (missing.empty()) return;
     for (const auto& [plugin, at, by] : missing)
       instances_.push_back(make({plugin, plugin, 1, {}, {}, {}, {world_.file.string()}, false, at, by}));
   }
+}
+
+bool Simulation::is_to_be_removed(const std::string& instance) const {
+  return std::any_of(world_.occasions.begin(), world_.occasions.end(), [&](const Occasion& occasion) {
+    return std::any_of(occasion.plugins.begin(), occasion.plugins.end(), [&](const PluginChange& change) {
+      return change.kind == PluginChange::Kind::remove && change.instance == instance;
+    });
+  });
 }
 
 void Simulation::relink() {
@@ -95,6 +138,7 @@ void Simulation::relink() {
   std::vector<Instance*> all;
   for (const auto& instance : instances_) all.push_back(instance.get());
   Linker linker(all, standard_, world_, board_);
+  linker.promise(promised_);
   linker.check();
   batches_ = linker.build();
   for (const auto& table : linker.dropped())
@@ -110,6 +154,14 @@ void Simulation::relink() {
   listed_.clear();
   for (const auto& [name, set] : board_.sets()) {
     if (set->kind == SetKind::listed) listed_.emplace_back(set.get(), set->listed);
+  }
+}
+
+std::optional<TableView> Simulation::find_table(const std::string& name) const {
+  try {
+    return table(name);
+  } catch (const Error&) {
+    return std::nullopt;
   }
 }
 
@@ -169,6 +221,7 @@ std::string Simulation::suggest_table(const std::string& name) const {
 Snapshot Simulation::snapshot() const {
   Snapshot result;
   result.tick = tick_;
+  result.dt = world_.dt;
   for (const auto& [name, set] : board_.sets()) result.sets[name] = {set->names, set->alive, set->like, set->listed};
   for (const auto& [name, table] : board_.tables()) result.tables[name] = {table->columns().text(), table->now()};
   for (const auto& instance : instances_) {

@@ -4,6 +4,8 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -73,6 +75,8 @@ class Simulation {
 
   // By name: "robot/*/pose", "robot/leader/pose", "link/*/level@radio.multiwall.walls". Throws Error.
   TableView table(const std::string& name) const;
+  // None where it is not there, or not any more.
+  std::optional<TableView> find_table(const std::string& name) const;
   const Blackboard& board() const { return board_; }
 
   std::vector<ParameterInfo> parameters() const;
@@ -125,7 +129,8 @@ class Simulation {
   void do_planned();
   void do_conditional();
   void happen(const std::vector<const Occasion*>& due);
-  void change(const PluginChange& planned);
+  void change(const std::vector<const PluginChange*>& planned);
+  void change(const PluginChange& planned, std::vector<std::unique_ptr<Instance>>& aside, std::vector<Event>& told);
   void change(const RowChange& planned);
   double value_of(const RowChange& planned, const ParameterInfo& set) const;
   bool has(const std::string& instance) const;
@@ -136,6 +141,7 @@ class Simulation {
   bool holds_now(const Occasion& occasion) const;
   void look_at_conditions();
   void rehearse();
+  void warn_of_idle(const Occasion& occasion, std::set<std::string>& gone);
   void rehearse(const PluginChange& planned, std::vector<Instance*>& there,
                 std::vector<std::unique_ptr<Instance>>& made);
   void rehearse(const RowChange& planned, const std::vector<Instance*>& there) const;
@@ -145,6 +151,9 @@ class Simulation {
   template <class Change>
   void guarded(Change&& change);
   bool put_instances(const Snapshot& snapshot, std::vector<std::unique_ptr<Instance>>& aside);
+  void put_back(const std::vector<const Instance*>& order, std::vector<std::unique_ptr<Instance>>& aside);
+  std::vector<std::unique_ptr<Instance>> make_planned();
+  bool is_to_be_removed(const std::string& instance) const;
   void relink_anew();
   void check_fits(const Snapshot& snapshot) const;
   void put(const Snapshot& snapshot);
@@ -187,7 +196,21 @@ class Simulation {
   std::mutex faulty_;                                 // guards faults_
   std::vector<std::pair<Set*, std::size_t>> listed_;  // rows of the listed sets before this tick
   std::vector<std::shared_ptr<Library>> planned_;     // libraries of plugins to come
+  std::set<std::string> promised_;                    // tables that they write, or that what is removed wrote
   std::vector<std::string> unread_;                   // warnings of the last link
 };
+
+// Runs a change; if it is refused, its rows and sets are removed.
+template <class Change>
+void Simulation::guarded(Change&& change) {
+  const auto mark = board_.mark();
+  try {
+    change();
+  } catch (...) {
+    board_.back_to(mark);
+    throw;
+  }
+  drop_private_sets();
+}
 
 }  // namespace muster

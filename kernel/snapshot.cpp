@@ -12,7 +12,7 @@
 namespace muster {
 namespace {
 
-constexpr std::string_view magic = "muster.snapshot.2\n";
+constexpr std::string_view magic = "muster.snapshot.3\n";
 
 // A hash over words; each word is mixed before the next is added.
 class Hash {
@@ -136,6 +136,7 @@ void Snapshot::save(const std::filesystem::path& file) const {
   std::ofstream out(part, std::ios::binary);
   Writer writer;
   writer.word(tick);
+  writer.word(std::bit_cast<uint64_t>(dt));
   writer.word(sets.size());
   for (const auto& [name, set] : sets) {
     writer.text(name);
@@ -183,6 +184,7 @@ Snapshot Snapshot::load(const std::filesystem::path& file) {
   if (reader.take(magic.size()) != magic) reader.fail();
   Snapshot result;
   result.tick = reader.word();
+  result.dt = std::bit_cast<double>(reader.word());
   for (auto n = reader.word(); n > 0; --n) {
     auto& set = result.sets[std::string(reader.text())];
     for (auto rows = reader.word(); rows > 0; --rows) set.names.emplace_back(reader.text());

@@ -31,6 +31,7 @@ struct Snapshot {
   };
 
   uint64_t tick = 0;
+  double dt = 0;  // of a tick [s]
   std::map<std::string, SavedSet> sets;
   std::map<std::string, SavedTable> tables;
   std::map<std::string, SavedInstance> instances;

@@ -20,19 +20,6 @@ std::size_t Simulation::find(const std::string& instance) const {
   throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid));
 }
 
-// Runs a change; if it is refused, its rows and sets are removed.
-template <class Change>
-void Simulation::guarded(Change&& change) {
-  const auto mark = board_.mark();
-  try {
-    change();
-  } catch (...) {
-    board_.back_to(mark);
-    throw;
-  }
-  drop_private_sets();
-}
-
 // Destroys the old instance only after the new one is linked.
 void Simulation::replace(std::size_t at, std::unique_ptr<Instance> instance) {
   std::swap(instances_[at], instance);

@@ -220,9 +220,10 @@ void Foxglove::take_text(Client& client, std::string_view message) {
                                                                {"unsubscribe", &Foxglove::unsubscribe},
                                                                {"getParameters", &Foxglove::get_parameters},
                                                                {"setParameters", &Foxglove::set_parameters}};
+  const auto asked = op->get<std::string>();
   std::vector<std::string> valid;
   for (const auto& [name, take] : known) {
-    if (name == *op) return (this->*take)(client, request);
+    if (name == asked) return (this->*take)(client, request);
     valid.push_back(name);
   }
   static const std::vector<std::pair<std::string, std::string>> unsupported{
@@ -234,11 +235,11 @@ void Foxglove::take_text(Client& client, std::string_view message) {
       {"unsubscribeConnectionGraph", "connectionGraph"},
       {"fetchAsset", "assets"}};
   for (const auto& [name, capability] : unsupported) {
-    if (name == *op)
+    if (name == asked)
       return status(client, Level::error, name + ": this server has not the capability \"" + capability + '"');
   }
   status(client, Level::error,
-         "unknown op " + quote(op->get<std::string>()) + "; " + suggest(op->get<std::string>(), valid));
+         "unknown op " + quote(asked) + "; " + suggest(asked, valid));
 }
 
 void Foxglove::subscribe(Client& client, const Request& request) {

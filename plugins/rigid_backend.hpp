@@ -71,7 +71,7 @@ class Backend {
   void step(const Step& k, const Settings& settings, const Advance& advance, const Read& read, const Write& write) {
     keep(k, settings);
     stand_walls(k);
-    if (k.tick() == first_tick && made_.settings.obstacles) warn_of_starts(k);
+    if (!starts_.empty() && made_.settings.obstacles) warn_of_starts(k);
     states_.clear();
     commands_.clear();
     for (const std::size_t row : made_.rows) {
@@ -94,8 +94,6 @@ class Backend {
   }
 
  private:
-  static constexpr uint64_t first_tick = 1;
-
   // Inputs from which the engine is built. Parameters come with the first step.
   struct Made {
     Settings settings;
@@ -123,6 +121,7 @@ class Backend {
 
   void keep(const Step& k, const Settings& settings) {
     Made now{settings, {}, {}};
+    starts_.clear();
     for (std::size_t i = 0; i < k[pose_].size(); ++i) {
       k[pose_][i] = k.last(pose_)[i];  // robots that left keep their state
       k[twist_][i] = k.last(twist_)[i];
@@ -130,8 +129,11 @@ class Backend {
       if (flies_) k[rotors_][i] = k.last(rotors_)[i];
       if (rear_wheels_) k[*rear_wheels_][i] = k.last(*rear_wheels_)[i];
       if (limbs_) k[*limbs_][i] = k.last(*limbs_)[i];
-      k[model_][i].model = WorldRobots::model_of(k.last(model_)[i].model, i);
+      // 0 until it is there for the first time.
+      const double before = k.last(model_)[i].model;
+      k[model_][i].model = before == 0 && !k.alive("robot", i) ? 0 : WorldRobots::model_of(before, i);
       if (!k.alive("robot", i)) continue;
+      if (before == 0) starts_.push_back(i);
       now.rows.push_back(i);
       now.models.push_back(k[model_][i].model);
     }
@@ -150,7 +152,8 @@ class Backend {
              k[pose_].size(), [&](std::size_t i) { return k.last(pose_)[i]; },
              [&](std::size_t i) { return k.alive("robot", i) ? robots_.of(k[model_][i].model) : nullptr; },
              [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
-      k.warn("robot/" + std::string(k.name("robot", fault.robot)), fault.message);
+      if (std::find(starts_.begin(), starts_.end(), fault.robot) != starts_.end())
+        k.warn("robot/" + std::string(k.name("robot", fault.robot)), fault.message);
   }
 
   // Walls with the doors' states of this tick.
@@ -239,6 +242,7 @@ class Backend {
   Out<Complained> complained_;
   Made made_;
   std::unique_ptr<World> world_;
+  std::vector<std::size_t> starts_;  // robots that are there for the first time
   std::vector<double> known_walls_;  // and doors, that stand in the world
   std::vector<State> states_;        // buffers, kept from step to step
   std::vector<Command> commands_;

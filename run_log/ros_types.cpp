@@ -61,6 +61,18 @@ const RosType marker_array{"visualization_msgs/msg/MarkerArray",
                            "MSG: visualization_msgs/MeshFile\n"
                            "string filename\nuint8[] data\n"};
 
+const RosType laser_scan{"sensor_msgs/msg/LaserScan",
+                         "std_msgs/Header header\n"
+                         "float32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
+                         "float32 time_increment\nfloat32 scan_time\n"
+                         "float32 range_min\nfloat32 range_max\n"
+                         "float32[] ranges\nfloat32[] intensities\n" MUSTER_HEADER};
+
+const RosType picture_message{"sensor_msgs/msg/Image",
+                              "std_msgs/Header header\n"
+                              "uint32 height\nuint32 width\n"
+                              "string encoding\nuint8 is_bigendian\nuint32 step\nuint8[] data\n" MUSTER_HEADER};
+
 const RosType log_line{"rcl_interfaces/msg/Log",
                        "builtin_interfaces/Time stamp\n"
                        "uint8 level\n"

@@ -197,7 +197,9 @@ void TableLog::write_listed(const Simulation& run, const TableView& view, Logged
 
 void TableLog::write(const Simulation& run) {
   for (Logged& logged : tables_) {
-    const TableView view = run.table(logged.declared.table);
+    const auto found = run.find_table(logged.declared.table);
+    if (!found) continue;  // it went with a plugin
+    const TableView view = *found;
     const Set& set = view.table->set();
     if (set.kind != SetKind::queue && run.tick() % logged.declared.every != 0) continue;
     // A swap may have made tables anew, with other columns.

@@ -11,7 +11,7 @@
 namespace muster {
 namespace {
 
-const std::vector<std::string> of_at = {"set", "leave", "robot", "swap", "remove"};
+const std::vector<std::string> of_at = {"set", "leave", "robot", "station", "swap", "remove"};
 constexpr const char* a_time = "a time in seconds, from 0";
 constexpr const char* a_condition =
     "a condition, TABLE/COLUMN below, above or is NUMBER, such as \"robot/leader/pose/x above 3\" or "
@@ -70,7 +70,7 @@ Condition read_condition(const XmlAttribute& given) {
           given.value_place};
 }
 
-Occasion read_occasion(const XmlElement& element, World& world) {
+Occasion read_occasion(const XmlElement& element, const World& world) {
   for (const auto& given : element.attributes) {
     if (given.name != "t" && given.name != "when") refuse_unknown(given, element.name, {"t", "when"});
   }
@@ -83,10 +83,6 @@ Occasion read_occasion(const XmlElement& element, World& world) {
     return occasion;
   }
   occasion.tick = tick_of(needed(element, "t", "a time in seconds, from 0, or when=\"...\", a condition"), world);
-  if (occasion.tick >= world.ticks)
-    world.warnings.push_back(
-        {element.place, "<at> comes at " + print_real(static_cast<double>(occasion.tick) * world.dt) +
-                            " s, at the end of the run (" + print_real(world.until()) + " s) or after it"});
   return occasion;
 }
 
@@ -150,9 +146,7 @@ void read_swap_element(const XmlElement& element, World& world) {
   occasion.tick = tick_of(needed(element, "at", a_time), world);
   occasion.place = element.place;
   occasion.plugins.push_back(read_swap(element));
-  if (occasion.tick >= world.ticks)
-    world.warnings.push_back({element.place, "the swap of " + quote(occasion.plugins[0].instance) +
-                                                 " comes at the end of the run or after it"});
+  occasion.title = "the swap of " + quote(occasion.plugins[0].instance);
   world.occasions.push_back(std::move(occasion));
 }
 
@@ -180,40 +174,15 @@ void check_occasions(const World& world) {
 }
 
 void warn_of_vain_changes(World& world) {
-  struct Change {
-    const RowChange* change;
-    uint64_t tick;
-  };
-  const auto seconds = [&](uint64_t tick) { return print_real(static_cast<double>(tick) * world.dt) + " s"; };
-  std::map<std::string, Change> left, joins;                   // by row
-  std::map<std::pair<uint64_t, std::string>, Place> set_then;  // by tick and path
-  std::vector<const Occasion*> timed;
-  for (const Occasion& occasion : world.occasions)
-    if (!occasion.when) timed.push_back(&occasion);
-  std::stable_sort(timed.begin(), timed.end(), [](const auto* a, const auto* b) { return a->tick < b->tick; });
-  for (const Occasion* occasion : timed)
-    for (const RowChange& change : occasion->rows)
-      if (change.kind == RowChange::Kind::join) joins.insert({change.row, {&change, occasion->tick}});
-  for (const Occasion* occasion : timed) {
-    for (const RowChange& change : occasion->rows) {
-      if (change.kind == RowChange::Kind::set) {
-        const auto [first, is_new] = set_then.insert({{occasion->tick, change.path}, change.place});
-        if (!is_new)
-          world.warnings.push_back({change.place, quote(change.path) + " is set twice at " + seconds(occasion->tick) +
-                                                      "; the first is at " + first->second.text() +
-                                                      ", and the last one counts"});
-      } else if (change.kind == RowChange::Kind::leave) {
-        const auto join = joins.find(change.row);
-        const auto [first, is_new] = left.insert({change.row, {&change, occasion->tick}});
-        if (!is_new)
-          world.warnings.push_back({change.place, quote(change.row) + " has left at " + seconds(first->second.tick) +
-                                                      " (" + first->second.change->place.text() +
-                                                      "); this <leave> does nothing"});
-        else if (join != joins.end() && join->second.tick > occasion->tick)
-          world.warnings.push_back({change.place, quote(change.row) + " leaves at " + seconds(occasion->tick) +
-                                                      ", before it joins at " + seconds(join->second.tick) +
-                                                      "; this <leave> does nothing"});
-      }
+  std::map<std::pair<uint64_t, std::string>, Place> first_set;  // by tick and path
+  for (const Occasion& occasion : world.occasions) {
+    for (const RowChange& change : occasion.rows) {
+      if (occasion.when || change.kind != RowChange::Kind::set) continue;
+      const auto [first, is_new] = first_set.insert({{occasion.tick, change.path}, change.place});
+      if (is_new) continue;
+      const std::string time = print_real(static_cast<double>(occasion.tick) * world.dt) + " s";
+      world.warnings.push_back({change.place, quote(change.path) + " is set twice at " + time + "; the first is at " +
+                                                  first->second.text() + ", and the last one counts"});
     }
   }
 }

@@ -84,6 +84,7 @@ struct Occasion {
   std::vector<PluginChange> plugins{};
   std::vector<RowChange> rows{};
   Place place{};
+  std::string title = "<at>";  // for messages
 };
 
 struct RecordDeclaration {

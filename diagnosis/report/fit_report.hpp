@@ -21,6 +21,7 @@ class FitReport {
       const std::function<void(double)>& progress = [](double) {});
 
   const diagnosis::Fit& fit() const { return fit_; }
+  const Simulation& simulation() const { return model_.simulation(); }
   // Writes the figures of the fit to a folder; json() and print() list them.
   void draw(const std::filesystem::path& folder);
   Json json() const;

@@ -86,12 +86,13 @@ struct ControlMission {
 
   struct State {
     static constexpr const char* columns =
-        "line at begun began[s] x[m]? y[m]? z[m]? yaw[rad]? leader_x[m]? leader_y[m]? leader_z[m]? held good_x[m]? "
+        "line mission at begun began[s] x[m]? y[m]? z[m]? yaw[rad]? leader_x[m]? leader_y[m]? leader_z[m]? held "
+        "good_x[m]? "
         "good_y[m]? good_z[m]? handled count0 count1 count2 count3 rssi0[dBm]? rssi1[dBm]? rssi2[dBm]? rssi3[dBm]? "
         "heard0[s] heard1[s] heard2[s] heard3[s] kept0? kept1? kept2? kept3? mail{}";
-    double line, at;      // in the file; number of the instruction
-    double begun, began;  // 1 while an instruction goes on, and since when
-    double x, y, z, yaw;  // where it is to be
+    double line, mission, at;  // in the file; the mission's mark; number of the instruction
+    double begun, began;       // 1 while an instruction goes on, and since when
+    double x, y, z, yaw;       // where it is to be
     double leader_x, leader_y, leader_z;
     double held, good_x, good_y, good_z;  // 1 while a link that is kept is too weak; where all were strong
     double handled;                       // 1: a message has ended the mission
@@ -99,7 +100,7 @@ struct ControlMission {
     double rssi[most_links], heard[most_links], kept[most_links];  // the number of the <keep_link>
     double mail;
   };
-  static constexpr unsigned mail_column = 32;
+  static constexpr unsigned mail_column = 33;
   static_assert(sizeof(State) == (mail_column + 1) * sizeof(double) && most_loops == 4 && most_links == 4);
 
   explicit ControlMission(Setup& s)
@@ -113,7 +114,7 @@ struct ControlMission {
         radio(own_radio(s)),
         program(compile(
             read_file(s, "mission"),
-            [&](const std::string& name, const Place& place) { return radio_row(s, name, place); }, radio)),
+            [&](const std::string& name, const Place& place) { return radio_row(s, name, place); }, radio, flies)),
         inbox(s.read<Incoming>("inbox/{robot}/message")),
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
@@ -131,6 +132,7 @@ struct ControlMission {
     State now = *k.last(state);
     Mail mail(k.last_bytes(state, 0, mail_column));
     const Spot here = where(k);
+    if (now.mission != program.mark) begin_anew(now), mail = Mail("");
     if (is_null(now.x)) now.x = here.x, now.y = here.y, now.z = here.z, now.yaw = null();
     listen(k, now, mail);
     handle(k, now, mail);
@@ -143,6 +145,15 @@ struct ControlMission {
     k.put_bytes(state, 0, mail_column, mail.bytes());
     now.mail = k[state]->mail;
     *k[state] = now;
+  }
+
+  // Another mission stood here before: the robot's first, or that of a plugin which was swapped.
+  void begin_anew(State& now) const {
+    now = {};
+    now.mission = program.mark;
+    now.x = now.leader_x = now.good_x = null();
+    std::fill(now.rssi, now.rssi + most_links, null());
+    std::fill(now.kept, now.kept + most_links, null());
   }
 
   Spot where(const Step& k) const {
@@ -179,9 +190,13 @@ struct ControlMission {
     }
   }
 
+  static constexpr double farthest = 1e6;  // [m] a place further off is nonsense
+
   static void hear_place(const std::string& words, State& now) {
     if (words.rfind("at ", 0) != 0) return;
-    if (const auto place = parse_reals(std::string_view(words).substr(3), 3))
+    const auto place = parse_reals(std::string_view(words).substr(3), 3);
+    const auto is_near = [](double at) { return std::abs(at) <= farthest; };
+    if (place && std::all_of(place->begin(), place->end(), is_near))
       now.leader_x = (*place)[0], now.leader_y = (*place)[1], now.leader_z = (*place)[2];
   }
 
@@ -220,17 +235,21 @@ struct ControlMission {
   // Begins or goes on with an instruction; true where it is done, and the next is at hand.
   bool advance(const Step& k, State& now, Mail& mail, const Spot& here) const {
     const Instruction& doing = program.code[static_cast<std::size_t>(now.at)];
-    if (now.begun == 0) now.begun = 1, now.began = k.time(), begin(now, doing);
+    if (now.begun == 0) {
+      now.begun = 1, now.began = k.time();
+      begin(now, doing);
+      if (doing.act == Act::end) k.event("the mission is done");
+    }
     const auto next = [&] { return now.begun = 0, ++now.at, true; };
     const auto jump = [&](std::size_t to) { return now.begun = 0, now.at = static_cast<double>(to), true; };
     switch (doing.act) {
       case Act::go_to:
         if (now.held == 0 && is_there(doing, here)) return next();
-        return is_over(k, now, doing, "going there") && next();
+        return is_over(k, now, doing, "going there") && (stay(now, here), next());
       case Act::follow:
         if (!doing.text.empty() && mail.take(doing.peer, doing.text)) return next();
         if (!is_null(now.leader_x)) aim_behind(now, doing, here);
-        return is_over(k, now, doing, "following") && next();
+        return is_over(k, now, doing, "following") && (stay(now, here), next());
       case Act::wait:
         return k.time() - now.began >= doing.number && next();
       case Act::hear:
@@ -268,6 +287,8 @@ struct ControlMission {
     now.x = doing.x, now.y = doing.y, now.yaw = doing.heading;
     if (!is_null(doing.z)) now.z = doing.z;
   }
+
+  static void stay(State& now, const Spot& here) { now.x = here.x, now.y = here.y, now.z = here.z, now.yaw = null(); }
 
   bool is_there(const Instruction& to, const Spot& here) const {
     constexpr double turned = 0.05;  // [rad]

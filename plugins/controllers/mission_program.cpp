@@ -9,9 +9,21 @@ namespace {
 constexpr double far = 1e6, long_time = 1e9;
 const std::vector<std::string> steps = {"go_to", "wait", "say", "follow", "keep_link", "repeat", "patrol", "choose"};
 
+// Over names, values and nesting: two files of one content are one mission.
+void mix(const XmlElement& element, uint64_t& hash) {
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;  // FNV-1a
+    hash = (hash ^ 0x1f) * 0x100000001b3u;
+  };
+  add(element.name);
+  for (const auto& attribute : element.attributes) add(attribute.name), add(attribute.value);
+  for (const auto& child : element.children) mix(child, hash);
+  add("/");
+}
+
 class Compiler {
  public:
-  Compiler(const FindRadio& find, double own) : find_(find), own_(own) {}
+  Compiler(const FindRadio& find, double own, bool flies) : find_(find), own_(own), flies_(flies) {}
 
   Program compile(const XmlElement& root) {
     if (root.name != "mission") refuse(root.place, "the root element is <" + root.name + ">; expected <mission>");
@@ -19,7 +31,7 @@ class Compiler {
     for (const auto& child : root.children) {
       if (child.name != "on") step(child);
     }
-    if (root.children.empty()) refuse(root.place, "the mission has no step; " + suggest("", steps));
+    if (program_.code.empty()) refuse(root.place, "<mission> is empty; " + suggest("", steps));
     add(Act::end, root);
     for (const auto& child : root.children) {
       if (child.name == "on") handler(child);
@@ -65,6 +77,8 @@ class Compiler {
     const XmlAttribute& at = needed(element, "at", "a place: x y, or x y z for a robot that flies");
     auto place = parse_reals(at.value, 3);
     if (!place) place = parse_reals(at.value, 2);
+    if (place && place->size() == 3 && !flies_)
+      refuse(at.value_place, "attribute \"at\": a robot on the ground has no height to go to; expected x y");
     if (!place) refuse(at.value_place, "attribute \"at\": " + quote(at.value) + " is no place; expected x y or x y z");
     for (const double value : *place) {
       if (!(std::abs(value) <= far))
@@ -78,7 +92,7 @@ class Compiler {
     if (const std::string doubt = heading ? angle_doubt(made.heading) : ""; !doubt.empty())
       program_.doubts.push_back(heading->value_place.text() + ": attribute \"heading\": " + doubt);
     made.number = number(element, "within", 0.1, 1e-3, far);
-    made.patience = number(element, "patience", 0, 0, long_time);
+    made.patience = number(element, "patience", 0, 1e-3, long_time);
   }
 
   void wait(const XmlElement& element) {
@@ -95,7 +109,7 @@ class Compiler {
     Instruction& made = add(Act::hear, element);
     made.text = await(message);
     made.peer = radio(element, "from");
-    made.patience = number(element, "patience", 0, 0, long_time);
+    made.patience = number(element, "patience", 0, 1e-3, long_time);
   }
 
   void say(const XmlElement& element) {
@@ -114,7 +128,7 @@ class Compiler {
     made.peer = radio(element, "radio");
     made.number = number(element, "distance", 1, 0, far);
     made.text = element.attribute("until") ? await(text(element, "until")) : "";
-    made.patience = number(element, "patience", 0, 0, long_time);
+    made.patience = number(element, "patience", 0, 1e-3, long_time);
     if (made.text.empty() && made.patience == 0)
       refuse(element.place, "<follow> has no end; expected until=\"MESSAGE\" or patience=\"SECONDS\"");
   }
@@ -122,7 +136,7 @@ class Compiler {
   void keep_link(const XmlElement& element) {
     expect_attributes(element, {"to", "above", "margin", "lost"});
     const XmlAttribute& to = needed(element, "to", "a radio");
-    const std::size_t slot = link(find_(to.value, to.value_place), to);
+    const std::size_t slot = link(other(to), to);
     if (std::find(kept_.begin(), kept_.end(), slot) != kept_.end())
       refuse(element.place, "the link to " + quote(to.value) + " is kept already, by an element around this one");
     Instruction& made = add(Act::keep, element);
@@ -162,7 +176,7 @@ class Compiler {
           refuse(place.place, "<" + place.name + "> is no element of <patrol>; expected <place at=\"x y\"/>");
         go_to(place, {"at", "heading"});
         program_.code.back().number = number(element, "within", 0.1, 1e-3, far);
-        program_.code.back().patience = number(element, "patience", 0, 0, long_time);
+        program_.code.back().patience = number(element, "patience", 0, 1e-3, long_time);
       }
     });
   }
@@ -203,14 +217,19 @@ class Compiler {
     const auto *below = element.attribute("below"), *above = element.attribute("above");
     if (!below == !above) refuse(element.place, "<if link=\"...\"> needs one of below=\"dBm\" and above=\"dBm\"");
     Instruction& made = add(Act::test_link, element);
-    made.slot = link(find_(to.value, to.value_place), to);
+    made.slot = link(other(to), to);
     made.below = below;
     made.number = number(below ? *below : *above, -200, 50);
   }
 
   void handler(const XmlElement& element) {
     expect_attributes(element, {"message", "from"});
-    const std::string message = needed(element, "message", "the text of a message").value;
+    const XmlAttribute& given = needed(element, "message", "the text of a message");
+    const std::string message = given.value;
+    for (const Handler& earlier : program_.handlers) {
+      if (earlier.text == message && (earlier.peer < 0 || earlier.peer == radio(element, "from")))
+        refuse(given.value_place, "an earlier <on> takes " + quote(message) + " already");
+    }
     program_.handlers.push_back({await(message), radio(element, "from"), program_.code.size()});
     block(element);
     add(Act::end, element);
@@ -218,7 +237,15 @@ class Compiler {
 
   double radio(const XmlElement& element, const char* name) const {
     const auto* given = element.attribute(name);
-    return given ? find_(given->value, given->value_place) : -1;
+    return given ? other(*given) : -1;
+  }
+
+  double other(const XmlAttribute& given) const {
+    const double row = find_(given.value, given.value_place);
+    if (row == own_)
+      refuse(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
+                                    " is the robot's own radio; expected another");
+    return row;
   }
 
   std::string await(const std::string& message) {
@@ -229,9 +256,6 @@ class Compiler {
 
   std::size_t link(double row, const XmlAttribute& given) {
     auto& all = program_.links;
-    if (row == own_)
-      refuse(given.value_place, "attribute " + quote(given.name) +
-                                    ": a radio has no link to itself; expected another than " + quote(given.value));
     const auto found = std::find(all.begin(), all.end(), row);
     if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
     if (all.size() == most_links)
@@ -242,6 +266,7 @@ class Compiler {
 
   const FindRadio& find_;
   double own_;
+  bool flies_;
   Program program_;
   std::size_t loops_ = 0;
   std::vector<std::size_t> kept_;
@@ -249,6 +274,12 @@ class Compiler {
 
 }  // namespace
 
-Program compile(const XmlElement& root, const FindRadio& find, double own) { return Compiler(find, own).compile(root); }
+Program compile(const XmlElement& root, const FindRadio& find, double own, bool flies) {
+  Program program = Compiler(find, own, flies).compile(root);
+  uint64_t hash = 0xcbf29ce484222325u;
+  mix(root, hash);
+  program.mark = static_cast<double>(hash >> 11);  // what a double holds
+  return program;
+}
 
 }  // namespace muster::missions

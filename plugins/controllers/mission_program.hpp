@@ -39,12 +39,13 @@ struct Program {
   std::vector<double> links;         // rows of the radios whose messages are measured
   std::vector<std::string> awaited;  // texts of messages that mean something to it
   std::vector<std::string> doubts;   // warnings with their places, such as of a heading that looks like degrees
+  double mark = 0;                   // differs from that of any other mission
 };
 
 // Finds a radio's row by its name, or throws with the place.
 using FindRadio = std::function<double(const std::string& name, const Place& place)>;
 
-// `own`: the row of the robot's own radio. Throws BadInput with the place in the file.
-Program compile(const XmlElement& root, const FindRadio& find, double own);
+// `own` is the row of the robot's own radio; `flies`: places have a height. Throws BadInput with the place in the file.
+Program compile(const XmlElement& root, const FindRadio& find, double own, bool flies);
 
 }  // namespace muster::missions

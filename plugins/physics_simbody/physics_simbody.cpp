@@ -172,17 +172,20 @@ struct PhysicsSimbody {
   }
 
   void step(const Step& k) {
-    now.rows.clear(), now.models.clear();
+    now.rows.clear(), now.models.clear(), starts.clear();
     now.step = k[step_size];
     now.leg_step = k[leg_step];
     now.integrator = k[integrator];
     now.rigid_legs = k[rigid_legs];
     for (std::size_t i = 0; i < k[pose].size(); ++i) {
-      k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
+      // 0 until it is there for the first time.
+      const double before = k.last(model)[i].model;
+      k[model][i].model = before == 0 && !k.alive("robot", i) ? 0 : WorldRobots::model_of(before, i);
       if (!k.alive("robot", i)) {
         stay(k, i);
         continue;
       }
+      if (before == 0) starts.push_back(i);
       now.rows.push_back(i);
       now.models.push_back(k[model][i].model);
     }
@@ -191,11 +194,9 @@ struct PhysicsSimbody {
       make_engine([&](std::size_t row) { return k.name("robot", row); });
     }
     tell_surroundings(k);
-    if (k.tick() == first_tick && made.integrator == 0) warn_of_starts(k);
+    if (!starts.empty() && made.integrator == 0) warn_of_starts(k);
     move(k);
   }
-
-  static constexpr uint64_t first_tick = 1;
 
   void warn_of_starts(const Step& k) const {
     std::vector<description::starts::Block> blocks;
@@ -205,7 +206,8 @@ struct PhysicsSimbody {
              k[pose].size(), [&](std::size_t i) { return k.last(pose)[i]; },
              [&](std::size_t i) { return k.alive("robot", i) ? robots.of(k[model][i].model) : nullptr; },
              [&](auto set, std::size_t row) { return k.name(set, row); }, blocks))
-      k.warn("robot/" + std::string(k.name("robot", fault.robot)), fault.message);
+      if (std::find(starts.begin(), starts.end(), fault.robot) != starts.end())
+        k.warn("robot/" + std::string(k.name("robot", fault.robot)), fault.message);
   }
 
   // A robot that left keeps its state.
@@ -313,6 +315,7 @@ struct PhysicsSimbody {
   std::optional<In<Gait>> gait;  // if any robot walks
   std::optional<Out<Legs>> legs;
   std::optional<Out<Limbs>> limbs;  // where a robot has any
+  std::vector<std::size_t> starts;  // robots that are there for the first time
   Made made, now;                   // inputs of the present engine; inputs in this step
   std::unique_ptr<simbody::Engine> engine;
   Surroundings surroundings;

@@ -81,7 +81,7 @@ struct SimbodyIntegrators::Robot {
     const SimTK::Transform floor;  // its z points up
     for (std::size_t w = 0; w < 2; ++w) {
       course[w].drive = &model.drive;
-      SimTK::Motion::Custom(bodies.wheel[w], new WheelMotion(course[w]));
+      const SimTK::Motion::Custom turns(bodies.wheel[w], new WheelMotion(course[w]));
       const SimTK::Constraint::SphereOnPlaneContact rolls(ground, floor, bodies.wheel[w], Vec3(0),
                                                           model.drive.wheel_radius, true);
     }

@@ -71,6 +71,21 @@ TEST_P(OnTheGround, ARobotJoinsLater) {
   EXPECT_GT(state(sim, "late").pose.x, 0.4 + 0.8);
 }
 
+// A backend with bodies says so where a robot joins in another.
+TEST_P(OnTheGround, ARobotThatJoinsInAnotherIsTold) {
+  if (!GetParam().height) return;
+  Started sim = run(one + "/><at t='1'><robot name='late' at='0.05 0 0'/></at>", {}, {});
+  run_for(sim, 90);
+  const auto told = [&] {
+    return std::count_if(sim.events().begin(), sim.events().end(), [](const Event& event) {
+      return event.message.find("robot 'late' starts in robot 'a'") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(), 0);
+  run_for(sim, 20);
+  EXPECT_EQ(told(), 1);
+}
+
 TEST_P(OnTheGround, ARunThatARobotJoinsIsTheSameAgain) {
   const std::string late = "<at t='1'><robot name='late' at='0.4 1 0'/></at><at t='2'><leave robot='late'/></at>";
   for (const int half : {50, 120})

@@ -93,7 +93,7 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
             "world.xml:5:11: <set> has no attribute \"value\", which it needs; expected its new value");
   EXPECT_EQ(error("<stop/>"),
             "world.xml:5:11: <stop> is no element of <at>; expected a plugin (with a dot in its name) or one of set, "
-            "leave, robot, swap, remove");
+            "leave, robot, station, swap, remove");
   EXPECT_EQ(error("<swap at='3' instance='mover' plugin='toy.copy_physics'/>"),
             "world.xml:5:17: <swap> has no attribute \"at\" inside <at>, whose time it has");
 }
@@ -102,6 +102,15 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
 std::string that_moves(const std::string& robot, const std::string& name) {
   return "<toy.copy_physics name='" + name + "' to='robot/" + robot + "/pose' columns='" + pose +
          "' own='true' add='1'/>";
+}
+
+TEST_F(Planned, ALeaveThatDoesNothingIsTold) {
+  Simulation sim = run(two_robots + adder + "<at t='1'><robot name='late' at='7 0 0'/><leave robot='a'/></at>\n" +
+                       "<at t='0.5'><leave robot='late'/></at>\n<at t='3'><leave robot='a'/></at>\n");
+  EXPECT_THAT(messages(sim), ElementsAre("0 : warning: " + (folder / "world.xml").string() +
+                                             ":6:27: \"late\" is not there then, and <leave> does nothing",
+                                         "0 : warning: " + (folder / "world.xml").string() +
+                                             ":7:25: \"a\" is not there then, and <leave> does nothing"));
 }
 
 TEST_F(Planned, ARobotJoinsAtItsPlace) {
@@ -134,6 +143,46 @@ TEST_F(Planned, AConditionCountsWhereItBeginsToHold) {
   EXPECT_THAT(way, ElementsAre(2, 3, 2, 1, 0, 2, 4, 3, 2));
   EXPECT_EQ(messages(sim)[0], "2 : it holds that robot/a/pose/x above 2");
   EXPECT_EQ(messages(sim)[1], "2 : set mover/add to -1");
+}
+
+TEST_F(Planned, WhatOneConditionDoesMayBeginAnother) {
+  Simulation sim =
+      run("<material name='brick' loss='4'/>\n<wall name='w' from='0 0' to='4 0' material='brick'/>\n"
+          "<door name='d' wall='w' at='1' state='closed'/>\n"
+          "<toy.copy_sense name='who_looks' from='door/*/state' columns='open' to='door/*/seen'/>\n" +
+          two_robots + adder +
+          "<at when='door/d/state/open is 1'><set path='mover/add' value='0'/></at>\n"
+          "<at when='robot/a/pose/x above 2'><set path='door/d/state' value='open'/></at>\n");
+  step(sim, 6);
+  EXPECT_EQ(x_of(sim), 3);
+  const auto said = messages(sim);  // two conditions and what they set, in one tick
+  EXPECT_EQ(std::count_if(said.begin(), said.end(), [](const auto& m) { return m.starts_with("2 "); }), 4);
+}
+
+TEST_F(Planned, WhatHoldsFromTheStartIsTold) {
+  Simulation sim = run(two_robots + adder + "<at when='robot/b/pose/x above 1'><leave robot='b'/></at>\n");
+  step(sim, 3);
+  EXPECT_EQ(sim.board().find_set("robot")->alive[1], 1);
+  EXPECT_THAT(messages(sim), ElementsAre(testing::HasSubstr("it holds from the start that robot/b/pose/x above 1")));
+}
+
+// A plugin that goes takes its table with it: no condition is met by it any more.
+TEST_F(Planned, ATableThatWentMeetsNoCondition) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_physics name='c' to='self/x' own='true' add='1'/>\n"
+                       "<at t='1'><remove instance='c'/></at>\n<at when='instance/c/x/v above 5'><leave "
+                       "robot='a'/></at>\n");
+  step(sim, 20);
+  EXPECT_EQ(sim.board().find_set("robot")->alive[0], 1);
+}
+
+TEST_F(Planned, ATimeThatANumberIsSetAfterItsPluginWentIsRefused) {
+  EXPECT_EQ(error_of([&] {
+              run(two_robots + adder +
+                  "<at t='1'><remove instance='mover'/></at>\n<at t='2'><set path='mover/add' "
+                  "value='2'/></at>\n");
+            }),
+            "world.xml:6:22: \"mover\" is removed by then, and has no parameters");
 }
 
 TEST_F(Planned, ConditionsAreRestored) {

@@ -10,7 +10,7 @@ const std::string sensed =
     "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
     "robot/stall, "
     "robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, robot/imu, "
-    "robot/gps, scan/message, heard/peer, range/message, outbox/message, inbox/message";
+    "robot/gps, scan/message, heard/peer, range/message, image/message, outbox/message, inbox/message";
 const std::string odometry = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";
 const std::string rest = "<toy.copy_sense name='sensor' to='robot/*/odometry' columns='" + odometry + "'/>\n";
 

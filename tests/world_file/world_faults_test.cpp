@@ -129,7 +129,7 @@ TEST_F(Faults, UnitsThatLookLikeOthersAreDoubted) {
   EXPECT_EQ(of_file.warnings[0].message, "column \"thickness[m]\": 12 m; is this centimetres?");
 }
 
-TEST_F(Faults, WhatIsSetOrLeavesTwiceIsWarnedOf) {
+TEST_F(Faults, WhatIsSetTwiceAtATimeIsWarnedOf) {
   const auto warned = [&](const std::string& elements) {
     std::vector<std::string> result;
     for (const Warning& warning : read_with("<robot name='a' at='0 0 0'/>\n" + elements).warnings)
@@ -139,10 +139,6 @@ TEST_F(Faults, WhatIsSetOrLeavesTwiceIsWarnedOf) {
   using testing::ElementsAre;
   EXPECT_THAT(warned("<at t='1'><set path='x/y' value='1'/>\n<set path='x/y' value='2'/></at>"),
               ElementsAre("4: \"x/y\" is set twice at 1 s; the first is at world.xml:3:22, and the last one counts"));
-  EXPECT_THAT(warned("<at t='2'><leave robot='a'/></at>\n<at t='1'><leave robot='a'/></at>"),
-              ElementsAre("3: \"a\" has left at 1 s (world.xml:4:25); this <leave> does nothing"));
-  EXPECT_THAT(warned("<at t='2'><robot name='b' at='1 1 0'/></at>\n<at t='1'><leave robot='b'/></at>"),
-              ElementsAre("4: \"b\" leaves at 1 s, before it joins at 2 s; this <leave> does nothing"));
   EXPECT_THAT(warned("<at t='1'><set path='x/y' value='1'/></at>\n<at t='2'><set path='x/y' value='2'/></at>\n"
                      "<at when='robot/a/pose/x above 1'><leave robot='a'/></at><at t='3'><leave robot='a'/></at>"),
               ElementsAre());
@@ -154,12 +150,6 @@ TEST_F(Faults, AFileOfNoWallsIsWarnedOf) {
   ASSERT_EQ(world.warnings.size(), 1u);
   EXPECT_EQ(world.warnings[0].message,
             "attribute \"file\": \"walls.csv\" has no rows below its header, so that it adds nothing");
-}
-
-TEST_F(Faults, ATimeBeyondTheEndIsToldWithBoth) {
-  const World world = read_with("<robot name='a' at='0 0 0'/><at t='12'><leave robot='a'/></at>");
-  ASSERT_EQ(world.warnings.size(), 1u);
-  EXPECT_EQ(world.warnings[0].message, "<at> comes at 12 s, at the end of the run (10 s) or after it");
 }
 
 TEST_F(Faults, ASwapThatNeverComesIsWarnedAbout) {

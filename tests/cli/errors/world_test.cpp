@@ -124,6 +124,38 @@ TEST(Fault7, TimesOutsideOfTheRunAreRefused) {
           "--restore: end.snap stands at 1 s, after the end of the run at 0.5 s");
 }
 
+TEST(Restored, WhatTheFileSaysNowAndTheSnapshotDoesNotIsTold) {
+  const ProgramFolder folder;
+  const auto of = [&](const std::string& wall, const std::string& attributes = "dt=\"0.1\" until=\"2\"") {
+    folder.write("world.xml", "<world " + attributes + "><material name=\"m\" loss=\"4\"/>\n<wall name=\"w1\" from=\"" +
+                                  wall +
+                                  "\" to=\"3 4\" material=\"m\"/><robot name=\"r\" at=\"0 0 0\"/><control.steady "
+                                  "name=\"steer\" robot=\"r\" v=\"0.5\"/><physics.planar through_walls=\"true\"/>"
+                                  "<robots.drive/></world>");
+  };
+  of("1 1");
+  ASSERT_EQ(folder.muster({"run", "world.xml", "--until", "1", "--save", "s.snap"}).exit, 0);
+  EXPECT_EQ(folder.muster({"run", "world.xml", "--restore", "s.snap"}).err, "");
+  of("1 2");
+  const Outcome moved = folder.muster({"run", "world.xml", "--restore", "s.snap"});
+  EXPECT_EQ(moved.exit, 0);
+  EXPECT_EQ(moved.err,
+            "muster: warning: --restore: the run goes on with what s.snap holds; changed in the world file since, and "
+            "not taken: wall/w1/shape\n");
+  // What is asked for on the command line is done.
+  const auto digest = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"run", "world.xml", "--restore", "s.snap", "--json"};
+    all.insert(all.end(), words.begin(), words.end());
+    const std::string out = folder.muster(all).out;
+    return out.substr(out.find("\"digest\""), 30);
+  };
+  EXPECT_NE(digest({"--set", "steer/v=0.1"}), digest({}));
+  of("1 1", "dt=\"0.05\" until=\"2\"");
+  expect_error(folder.muster({"run", "world.xml", "--restore", "s.snap"}), 2,
+               "--restore: s.snap: the snapshot was saved at ticks of 0.1 s, and here they are of 0.05 s; expected "
+               "dt=\"0.1\"");
+}
+
 TEST(Fault5, ARecordOfNoTableIsToldWhetherItIsWrittenOrNot) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good/>\n<record table=\"robot/*/psoe\"/>"));

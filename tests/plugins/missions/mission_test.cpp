@@ -47,10 +47,28 @@ TEST_F(Missions, AMissionOfStepsThatTakeNoTimeEndsNoTick) {
 }
 
 TEST_F(Missions, APlaceThatIsNotReachedIsGivenUp) {
-  Simulation sim = run("<go_to at='50 0' patience='2'/>\n<go_to at='0 0'/>");
+  Simulation sim = run("<go_to at='50 0' patience='2'/>\n<wait seconds='5'/>");
   ASSERT_TRUE(run_to_line(sim, 3));
   EXPECT_NEAR(sim.time(), 2, 0.11);
-  EXPECT_THAT(said(sim, "mission"), ElementsAre("line 2: gives up going there after 2 s"));
+  const double given_up = place_of(sim).x;
+  run_to(sim, 10);
+  EXPECT_NEAR(place_of(sim).x, given_up, 0.05) << "it stays where it gave up";
+  EXPECT_THAT(said(sim, "mission"), ElementsAre("line 2: gives up going there after 2 s", "the mission is done"));
+}
+
+// The place in one mission means nothing in another.
+TEST_F(Missions, AnotherMissionIsBegunAtItsBeginning) {
+  std::string many;
+  for (int i = 0; i < 50; ++i) many += "<say text='x'/>";
+  folder.write("second.xml", "<mission><go_to at='-1 0'/></mission>");
+  for (const std::string& first : {many + "<wait seconds='100'/>", std::string("<go_to at='1 0'/>")}) {
+    Simulation sim =
+        run(first,
+            "<at t='4'><swap instance='mission' plugin='control.mission' robot='scout' mission='second.xml'/>"
+            "</at>");
+    run_to(sim, 12);
+    EXPECT_LT(away(sim, -1, 0), 0.15);
+  }
 }
 
 // An order that comes while it does something else is not forgotten.
@@ -75,7 +93,7 @@ TEST_F(Missions, ALinkIsKept) {
   while (sim.time() < 150) {
     sim.step();
     farthest = std::max(farthest, place_of(sim).x);
-    const bool held = sim.table("instance/mission/state").at(0, 11) != 0;
+    const bool held = sim.table("instance/mission/state").at(0, 12) != 0;
     turns += held != was_held;
     was_held = held;
   }
@@ -120,7 +138,7 @@ TEST_F(Missions, AMessageEndsTheMission) {
   EXPECT_LT(away(sim, 0, 0), 0.15);
   run_to(sim, 30);
   EXPECT_EQ(line(sim), 3) << "a second one begins nothing anew";
-  EXPECT_THAT(said(sim, "mission"), ElementsAre("the mission is ended by \"home\""));
+  EXPECT_THAT(said(sim, "mission"), ElementsAre("the mission is ended by \"home\"", "the mission is done"));
 }
 
 TEST_F(Missions, OneFollowsAnother) {
@@ -149,6 +167,17 @@ TEST_F(Missions, AQuadrotorFliesThroughPlaces) {
   run_to(sim, sim.time() + 5);
   EXPECT_LT(away(sim, 3, 2), 0.05);
   EXPECT_NEAR(place_of(sim).z, 2, 0.05);  // no height: it keeps that of before
+}
+
+// What it needs, and a network that nobody uses before, are no fault.
+TEST_F(Missions, AMissionJoinsWithItsRobot) {
+  Simulation sim = world_of(folder,
+                            base + "<physics.planar/>" + air +
+                                "<at t='2'><robot name='scout' at='0 0 0'/><control.goal2d robot='scout' speed='0.5'/>"
+                                "<control.mission name='mission' robot='scout' mission='mission.xml'/></at>",
+                            {{"mission.xml", "<mission>\n<go_to at='1 0'/>\n</mission>\n"}}, one_second);
+  run_to(sim, 10);
+  EXPECT_LT(away(sim, 1, 0), 0.15);
 }
 
 TEST_F(Missions, ARunIsTheSameAgain) {
@@ -194,11 +223,14 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(
       refused("<choose><otherwise><wait seconds='1'/></otherwise><if message='a'><wait seconds='1'/></if></choose>"),
       HasSubstr("<if> stands after <otherwise>"));
+  EXPECT_EQ(refused("<go_to at='1 2 3'/>"),
+            "2:12: attribute \"at\": a robot on the ground has no height to go to; expected x y");
   EXPECT_EQ(refused("<keep_link to='scout' above='-60'><wait seconds='1'/></keep_link>"),
-            "2:16: attribute \"to\": a radio has no link to itself; expected another than \"scout\"");
-  EXPECT_EQ(
-      refused(""),
-      "1:1: the mission has no step; expected one of go_to, wait, say, follow, keep_link, repeat, patrol, choose");
+            "2:16: attribute \"to\": \"scout\" is the robot's own radio; expected another");
+  EXPECT_THAT(refused(""), HasSubstr("<mission> is empty"));
+  EXPECT_THAT(
+      refused("<wait seconds='1'/><on message='a'><wait seconds='1'/></on><on message='a'><wait seconds='1'/></on>"),
+      HasSubstr("an earlier <on> takes \"a\" already"));
   EXPECT_THAT(refused("<choose><if link='base'><wait seconds='1'/></if></choose>"), HasSubstr("needs one of below"));
 }
 

@@ -29,7 +29,7 @@ TEST(Blind, AControllerThatClaimsTruthIsRefused) {
             "what its robot senses: "
             "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
             "robot/stall, robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, robot/imu, "
-            "robot/gps, scan/message, heard/peer, range/message, outbox/message, inbox/message");
+            "robot/gps, scan/message, heard/peer, range/message, image/message, outbox/message, inbox/message");
 }
 
 TEST(Blind, AndSoIsOneThatReadsAnotherRobot) {

@@ -1,0 +1,71 @@
+#include "restored_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace muster::cli {
+namespace {
+
+// Rows that do not move, by "wall/w1/shape", and numbers of plugins, by "steer/speed".
+std::map<std::string, std::vector<double>> stated(const Simulation& run) {
+  std::map<std::string, std::vector<double>> result;
+  for (const auto& [name, table] : run.board().tables()) {
+    const Set& set = table->set();
+    if (set.kind != SetKind::fixed || !set.is_named() || set.name.starts_with("instance/")) continue;
+    const std::string quantity = name.substr(name.rfind('/'));
+    for (std::size_t row = 0; row < set.names.size() && row < table->now().rows; ++row) {
+      const double* cells = table->now().data.data() + row * table->width();
+      result[set.name + '/' + set.names[row] + quantity].assign(cells, cells + table->width());
+    }
+  }
+  std::set<std::string> instances;
+  for (const auto& instance : run.instances()) instances.insert(instance->name());
+  for (const ParameterInfo& parameter : run.parameters()) {
+    if (instances.count(parameter.path.substr(0, parameter.path.rfind('/'))))
+      result[parameter.path] = {parameter.value};
+  }
+  return result;
+}
+
+// The world file itself plans to change it.
+bool is_planned(const Simulation& run, const std::string& path) {
+  const auto& occasions = run.world().occasions;
+  return std::any_of(occasions.begin(), occasions.end(), [&](const Occasion& occasion) {
+    return std::any_of(occasion.rows.begin(), occasion.rows.end(),
+                       [&](const RowChange& change) { return change.path == path; });
+  });
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+void restore(Simulation& run, const std::string& file) {
+  const Snapshot snapshot = Snapshot::load(file);
+  const auto now = stated(run);
+  try {
+    run.restore(snapshot);
+  } catch (const Error& refused) {
+    throw Error(refused.exit(), "--restore: " + file + ": " + refused.what());
+  }
+  std::string changed;
+  for (const auto& [path, values] : stated(run)) {
+    const auto before = now.find(path);
+    if (before != now.end() && !same_bits(before->second, values) && !is_planned(run, path))
+      changed += (changed.empty() ? "" : ", ") + path;
+  }
+  if (!changed.empty())
+    fmt::print(stderr,
+               "muster: warning: --restore: the run goes on with what {} holds; changed in the world file since, and "
+               "not taken: {}\n",
+               file, changed);
+}
+
+}  // namespace muster::cli

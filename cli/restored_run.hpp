@@ -1,0 +1,13 @@
+// A run that begins from a file of `run --save`.
+#pragma once
+
+#include <string>
+
+#include "kernel/simulation.hpp"
+
+namespace muster::cli {
+
+// Warns of what the world file says now and the snapshot does not: it is not taken. Throws Error.
+void restore(Simulation& run, const std::string& file);
+
+}  // namespace muster::cli
