@@ -343,7 +343,6 @@ int run_swap(const Arguments& arguments) {
   line.option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
   line.parse(arguments);
   auto& replacement = words.swap.plugin;
-  words.swap.place = {"--plugin"};
   replacement = instance_of(words.swap.instance, replacement.plugin, attributes, "muster swap");
   return run_world(words);
 }

@@ -152,14 +152,6 @@ TEST_F(Faults, AFileOfNoWallsIsWarnedOf) {
             "attribute \"file\": \"walls.csv\" has no rows below its header, so that it adds nothing");
 }
 
-TEST_F(Faults, ASwapThatNeverComesIsWarnedAbout) {
-  const World world =
-      read_with("<a.b/>\n<swap at='9.9' instance='a.b' plugin='x.y'/>\n<swap at='10' instance='a.b' plugin='x.y'/>");
-  ASSERT_EQ(world.warnings.size(), 1u);
-  EXPECT_EQ(world.warnings[0].place.line, 4);
-  EXPECT_EQ(world.warnings[0].message, "the swap of \"a.b\" comes at the end of the run or after it");
-}
-
 TEST_F(Faults, Fault13OneNameTwice) {
   EXPECT_EQ(error_with("<robot name='a' at='0 0 0'/>\n<robot name='a' at='1 0 0'/>"),
             "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");

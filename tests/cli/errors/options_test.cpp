@@ -92,12 +92,12 @@ TEST_F(Words, AFitNeedsAModelOfTheChannel) {
                "<radio.multiwall/>, or --free PATH");
 }
 
-TEST_F(Words, ASwapIsToldByItsOption) {
+TEST_F(Words, ASwapIsToldByItsVerb) {
   EXPECT_THAT(folder
                   .muster({"swap", "world.xml", "--at", "0.5", "--instance", "good", "--plugin", "test.good", "siez=1",
                            "--plugins", MUSTER_TOYS})
                   .err,
-              testing::StartsWith("muster: error: --plugin: muster swap: <test.good> has no attribute \"siez\""));
+              testing::StartsWith("muster: error: muster swap: <test.good> has no attribute \"siez\""));
 }
 
 TEST_F(Words, TwoTermsThatAreOneAreWarnedOf) {
