@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "double_terms.hpp"
 #include "kernel/record.hpp"
 #include "text/json.hpp"
 #include "verbs.hpp"
@@ -30,6 +31,7 @@ std::vector<std::string> warnings_of(const Simulation& run) {
     const bool is_warning = event.message.starts_with(prefix);
     if (is_warning || event.tick == 0) result.push_back(is_warning ? event.message : prefix + event.message);
   }
+  for (const std::string& term : double_terms(run)) result.push_back(prefix + term);
   return result;
 }
 

@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "text/error.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::cli {
 
@@ -23,6 +26,22 @@ CLI::Validator one_of_these(const std::vector<std::string>& values) {
     return is_there ? std::string() : "there is no " + quote(given) + "; " + suggest(given, values);
   };
   return CLI::Validator(check, "{" + CLI::detail::join(values, ",") + "}");
+}
+
+// Refuses with the bounds, and keeps CLI11's words for them in --help.
+CLI::Validator between(double lowest, double highest, bool is_integer, const std::string& words) {
+  const auto check = [=](const std::string& given) -> std::string {
+    const auto whole = parse_integer(given);
+    const auto value =
+        is_integer ? (whole ? std::optional(static_cast<double>(*whole)) : std::nullopt) : parse_real(given);
+    if (value && *value >= lowest && *value <= highest) return "";
+    const std::string what = value        ? given + " is out of bounds"
+                             : is_integer ? why_not_integer(given)
+                                          : why_not_real(given);
+    const std::string end = std::isinf(highest) ? "" : " to " + print_real(highest);
+    return what + "; expected " + (is_integer ? "an integer" : "a number") + " from " + print_real(lowest) + end;
+  };
+  return CLI::Validator(check, words);
 }
 
 // Of "TEXT:{a,b}".
@@ -54,11 +73,24 @@ std::string usage_of(const std::vector<DeclaredOption>& options) {
   return result;
 }
 
+// "until=5" for --until 5; "--set steer/speed 0.1" for steer/speed=0.1.
+std::string too_many(const CLI::App& app, const std::string& word) {
+  std::string hint;
+  const std::string name = "--" + word.substr(0, word.find('='));
+  for (const CLI::Option* each : app.get_options()) {
+    if (each->check_name("--set") && each->count() > 0 && each->results().back().find('=') == std::string::npos)
+      hint = "; did you mean --set " + each->results().back() + "=" + word + "?";
+    if (word.find('=') != std::string::npos && each->check_name(name))
+      hint = "; did you mean " + name + " " + word.substr(word.find('=') + 1) + "?";
+  }
+  return quote(word) + " is one word too many" + hint;
+}
+
 // What is wrong with words that no option takes.
 std::string unexpected(const CLI::App& app) {
   const auto words = app.remaining();
   const auto option = std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.starts_with("-"); });
-  if (option == words.end()) return quote(words.empty() ? "" : words.back()) + " is one word too many";
+  if (option == words.end()) return too_many(app, words.empty() ? "" : words.back());
   std::vector<std::string> valid;
   for (const CLI::Option* each : app.get_options()) {
     for (const auto& name : each->get_lnames()) valid.push_back("--" + name);
@@ -75,8 +107,15 @@ CommandLine::~CommandLine() = default;
 
 Option& Option::required() { return option_->required(), *this; }
 Option& Option::shows_default() { return option_->capture_default_str(), *this; }
-Option& Option::within(int lowest, int highest) { return option_->check(CLI::Range(lowest, highest)), *this; }
-Option& Option::within(double lowest, double highest) { return option_->check(CLI::Range(lowest, highest)), *this; }
+Option& Option::within(int lowest, int highest) {
+  return option_->check(between(lowest, highest, true, CLI::Range(lowest, highest).get_description())), *this;
+}
+Option& Option::within(double lowest, double highest) {
+  return option_->check(between(lowest, highest, false, CLI::Range(lowest, highest).get_description())), *this;
+}
+Option& Option::at_least(int lowest) {
+  return option_->check(between(lowest, std::numeric_limits<double>::infinity(), true, "")), *this;
+}
 Option& Option::one_of(const std::vector<std::string>& values) { return option_->check(one_of_these(values)), *this; }
 Option& Option::takes(int words) { return option_->expected(words), *this; }
 Option& Option::one_word_each() { return option_->allow_extra_args(false), *this; }
@@ -131,6 +170,14 @@ void CommandLine::parse(const Arguments& arguments) {
   } catch (const CLI::ArgumentMismatch& e) {
     const std::string what = e.what();
     const auto once = what.find(": At Most 1 required");
+    if (const auto missing = what.find(": 1 required"); missing != what.npos)
+      refuse(what.substr(0, missing) + " has no value; expected one behind it");
+    if (const auto few = what.find(": At least "); few != what.npos) {
+      const auto got = what.find(" required but received ");
+      if (got != what.npos)
+        refuse(what.substr(0, few) + ": expected " + what.substr(few + 11, got - few - 11) + " words, not " +
+               what.substr(got + 23));
+    }
     refuse(once == what.npos ? what : what.substr(0, once) + " is given more than once; expected one value");
   } catch (const CLI::ParseError& e) {
     refuse(e.what());

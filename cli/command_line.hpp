@@ -29,6 +29,7 @@ class CommandLine {
     Option& shows_default();  // in --help: the value of the variable as it is now
     Option& within(int lowest, int highest);
     Option& within(double lowest, double highest);
+    Option& at_least(int lowest);  // an integer
     Option& one_of(const std::vector<std::string>& values);
     Option& takes(int words);
     Option& one_word_each();  // may be given several times; the words of a verb may follow it

@@ -61,6 +61,12 @@ void Progress::at(const std::string& now) {
   }
 }
 
+void expect_channel(const Simulation& run) {
+  if (!run.board().find("link/*/ends"))
+    throw Error(Exit::invalid_input, run.world().file.string() +
+                                         ": the world has no radio channel; expected one, such as <radio.multiwall/>");
+}
+
 namespace {
 volatile std::sig_atomic_t stop = 0;
 }

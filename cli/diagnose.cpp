@@ -11,6 +11,7 @@
 #include "diagnosis/report/regression.hpp"
 #include "diagnosis/report/text.hpp"
 #include "verbs.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -56,6 +57,10 @@ Words words_of(const Arguments& arguments) {
   if (words.data.empty()) throw wrong("--data is required");
   if (!words.second.empty() && words.out.empty())
     throw wrong("--second needs --out, the folder for the extended world");
+  std::error_code none;
+  if (std::filesystem::equivalent(words.second, words.data, none))
+    throw wrong("--second: " + words.second + " is --data itself; expected readings that were not used");
+  WrittenFiles::writes_folder(words.out, "--out");
   return words;
 }
 

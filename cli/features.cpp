@@ -8,6 +8,7 @@
 #include "text/json.hpp"
 #include "text/text_table_writer.hpp"
 #include "verbs.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -82,6 +83,10 @@ int run_features(const Arguments& arguments) {
   line.option("--plugins", plugins, "a folder of plugins, looked in first");
   line.flag("--json", json, "print a summary as JSON");
   line.parse(arguments);
+  WrittenFiles files;
+  files.reads_world(world);
+  files.reads(file, "--data");
+  files.writes(out, "--out");
   const Dataset data = read_dataset(file);
   const LinkModel model(world, file, plugin_path(plugins));
   const Features features = features_of(model);

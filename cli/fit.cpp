@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "diagnosis/report/fit_report.hpp"
 #include "verbs.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -40,7 +42,21 @@ Words words_of(const Arguments& arguments) {
   line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
   line.flag("--json", words.json, "print the result as JSON");
   line.parse(arguments);
+  WrittenFiles::writes_folder(words.out, "--out");
   return words;
+}
+
+// The first byte that is no white space; 0 where there is none.
+char first_of(const std::string& path) {
+  std::ifstream file(path);
+  char first = 0;
+  return file >> first ? first : '\0';
+}
+
+void refuse_exchanged(const Words& words) {
+  if (std::filesystem::is_directory(words.world) || first_of(words.world) == '<' || first_of(words.data) != '<') return;
+  throw Error(Exit::invalid_input, "muster fit: --data " + words.data + " begins with '<' as a world does, and " +
+                                       words.world + " does not; expected muster fit WORLD --data TABLE");
 }
 
 // The same path loss with natural logarithms, L = l0 + 10 n ln d: n is less by ln 10, and l0 the same. Papers do not
@@ -85,6 +101,7 @@ void print_natural(const std::vector<NaturalExponent>& exponents) {
 
 int run_fit(const Arguments& arguments) {
   const Words words = words_of(arguments);
+  refuse_exchanged(words);
   Progress progress("fit");
   progress.at(0);
   const diagnosis::CellOptions cells{words.cell, words.least,

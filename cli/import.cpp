@@ -4,6 +4,7 @@
 #include "diagnosis/data/table_import.hpp"
 #include "text/json.hpp"
 #include "verbs.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 
@@ -23,6 +24,10 @@ int run_import(const Arguments& arguments) {
   line.option("--out", out, "the table to write").required();
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
+  WrittenFiles checked;
+  for (const std::string& file : files) checked.reads(file, "file");
+  checked.reads(map, "--map");
+  checked.writes(out, "--out");
   const diagnosis::Imported done = diagnosis::import_table({files.begin(), files.end()}, map, out);
   if (json) {
     fmt::print(

@@ -8,6 +8,7 @@
 #include "run_log/wide_table.hpp"
 #include "run_options.hpp"
 #include "text/number.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -57,8 +58,15 @@ void print_rewritten(const LogVerbWords& words, const mcap::Rewritten& done, con
              print_real(seconds(done.last_time)));
 }
 
+void check_written(const LogVerbWords& words, const fs::path& out) {
+  WrittenFiles files;
+  files.reads(words.file, "the log");
+  files.writes(out, "--out");
+}
+
 int log_recover(const LogVerbWords& words) {
   const fs::path out = out_of(words, "_recovered.mcap");
+  check_written(words, out);
   const auto done = mcap::rewrite(words.file, out, mcap::Damage::skipped);
   print_rewritten(words, done, out);
   return 0;
@@ -74,15 +82,22 @@ std::uint64_t time_of(const std::optional<std::string>& given, const char* optio
 
 int log_cut(const LogVerbWords& words) {
   if (words.out.empty()) throw Error(Exit::invalid_input, "cut needs --out, the file to write");
+  check_written(words, words.out);
   const mcap::Span span{time_of(words.from, "--from", 0), time_of(words.to, "--to", ~std::uint64_t{0})};
   if (span.first >= span.end)
     throw Error(Exit::invalid_input, "--from " + words.from.value_or("0") + " is not before --to " + *words.to);
+  const LogContents contents = contents_of(words.file);
+  if (contents.messages > 0 && span.first > contents.last_time)
+    throw Error(Exit::invalid_input, "--from: " + words.from.value_or("0") + " s is after the end of " + words.file +
+                                         " at " + print_real(static_cast<double>(contents.last_time) / 1e9) +
+                                         " s; nothing is written");
   print_rewritten(words, mcap::rewrite(words.file, words.out, mcap::Damage::refused, span), words.out);
   return 0;
 }
 
 int log_csv(const LogVerbWords& words) {
   const fs::path out = out_of(words, ".csv");
+  check_written(words, out);
   const auto done = run_log::write_wide(words.file, out, words.columns);
   if (words.json) {
     fmt::print(

@@ -38,7 +38,7 @@ constexpr Verb verbs[] = {
     {"diagnose", run_diagnose, "find what a world gets wrong about measured data, name the cause and extend the world"},
     {"exam", run_exam, "make sealed cases for a diagnosis, run it on them and grade what it says"},
     {"report", run_report, "a recorded run as one page: scene, time and plots, without a network"},
-    {"log", run_log, "what an MCAP file of a run holds; recover, cut, or make a table of it"},
+    {"log", cli::run_log, "what an MCAP file of a run holds; recover, cut, or make a table of it"},
     {"map", run_map, "the RSSI of a world's radios over its floor"},
     {"probe", run_probe, "a link's budget, line by line, and why nothing is received"},
     {"features", run_features, "distance, walls and angles of each measured reading"},

@@ -17,6 +17,7 @@
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 #include "text/text_table_writer.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -54,6 +55,7 @@ MapWords words_of(const Arguments& arguments) {
   line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
   line.flag("--json", words.json, "print a summary as JSON");
   line.parse(arguments);
+  WrittenFiles::writes_folder(words.out, "--out");
   words.at = real_of(at, "--at");
   words.height = real_of(height, "--height");
   for (const std::string& one : area) words.area.push_back(real_of(one, "--area"));
@@ -79,6 +81,7 @@ struct Grid {
 };
 
 std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
+  expect_channel(run);
   const auto names = names_of(run, "radio");
   const auto mounts = rows_of<Mount>(run, "radio/*/mount");
   const auto endpoints = rows_of<Endpoint>(run, "endpoint/*/radio");
@@ -112,6 +115,11 @@ Grid grid_of(const pic::FloorPlan& plan, const std::vector<Sender>& senders, con
     const pic::Range w = x.range(), h = y.range();
     add(w.low - room, h.low - room), add(w.high + room, h.high + room);
   } else {
+    constexpr double farthest = 100'000;  // m, as of the scene
+    for (const double v : words.area)
+      if (!(std::abs(v) <= farthest))
+        throw Error(Exit::invalid_input,
+                    "--area: " + print_real(v) + " m lies beyond the scene; expected metres within 100000 m");
     add(words.area[0], words.area[1]), add(words.area[2], words.area[3]);
   }
   const double width = x.range().span(), height = y.range().span();

@@ -30,6 +30,9 @@ constexpr double largest_difference = 1e-6;  // dB
 
 // Worlds in which nothing is hidden, by the program that makes exams: their truth shares no code with any cause.
 std::vector<fs::path> clean_worlds(int count, uint64_t seed, const std::vector<int>& rows, const fs::path& folder) {
+  if (rows[0] > rows[1])
+    throw Error(Exit::invalid_input, "muster plugin-check: --rows: " + std::to_string(rows[0]) + " is above " +
+                                         std::to_string(rows[1]) + "; expected FROM TO");
   const std::string program = (installation().parts / "muster_exam").string();
   std::vector<std::string> words{program,
                                  "make",

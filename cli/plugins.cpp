@@ -147,6 +147,9 @@ int run_describe(const Arguments& arguments) {
   line.option("--plugins", folders, "a folder of plugins, looked in first");
   line.flag("--json", json, "as JSON");
   line.parse(arguments);
+  if (std::filesystem::is_regular_file(id))
+    throw Error(Exit::invalid_input,
+                "muster describe: " + id + " is a file; expected a plugin or an element (muster check reads a world)");
   if (id.find('.') == std::string::npos) return describe_element(id, json, plugin_path(folders)), 0;
   const auto library = Library::load(id.substr(0, id.find('/')), {}, plugin_path(folders), {"muster describe"});
   auto out = Json::array();

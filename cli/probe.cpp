@@ -63,8 +63,7 @@ std::size_t endpoint_of(const Simulation& run, const std::string& radio) {
 }
 
 Rows rows_between(const Simulation& run, const ProbeWords& words) {
-  if (!run.board().find("link/*/ends"))
-    throw Error(Exit::invalid_input, run.world().file.string() + ": the world has no radio channel");
+  expect_channel(run);
   Rows rows{endpoint_of(run, words.from), endpoint_of(run, words.to), none};
   if (rows.from == rows.to)
     throw Error(Exit::invalid_input, "a radio does not hear itself; expected two radios, not " + quote(words.from));

@@ -5,6 +5,7 @@
 #include "text/json.hpp"
 #include "verbs.hpp"
 #include "viewer/page.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 
@@ -21,10 +22,19 @@ int run_report(const Arguments& arguments) {
   bool json = false;
   line.option("folder", folder, "the folder that `muster run --out` wrote").required();
   line.option("-o,--out", out, "the page to write; run.html in the folder if not given");
-  line.option("--most", most, "numbers that the page holds; longer tables are thinned evenly in time").shows_default();
+  line.option("--most", most, "numbers that the page holds; longer tables are thinned evenly in time")
+      .at_least(1)
+      .shows_default();
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
   if (out.empty()) out = (std::filesystem::path(folder) / "run.html").string();
+  WrittenFiles files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const auto kind = entry.path().extension();
+    if (kind == ".json" || kind == ".csv") files.reads(entry.path(), "the record");
+  }
+  files.writes(out, "--out");
   const viewer::WrittenPage page = viewer::write_page(folder, out, installation().parts, most);
   if (json) {
     fmt::print("{}\n", Json{{"file", out}, {"bytes", page.bytes}, {"notes", page.notes}}.dump(2));

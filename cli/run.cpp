@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "double_terms.hpp"
 #include "live_view.hpp"
 #include "pacing.hpp"
 #include "restored_run.hpp"
@@ -18,6 +19,7 @@
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -40,7 +42,7 @@ void declare(CommandLine& line, RunWords& words) {
   declare(line, words.log);
   line.option("--save", words.save, "write the state at the end to this file");
   line.option("--restore", words.restore, "begin from a state that --save wrote");
-  line.option("--digest-every", words.digest_every, "print the digest every so many ticks");
+  line.option("--digest-every", words.digest_every, "print the digest every so many ticks").at_least(1);
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
   line.flag("--real-time", words.real_time, "at the pace of the clock: a second of the run takes a second");
   line.option("--speed", words.speed, "with --real-time: so many seconds of the run a second");
@@ -161,11 +163,26 @@ std::optional<double> speed_of(const RunWords& words) {
   return speed;
 }
 
+void check_written(const RunWords& words) {
+  WrittenFiles files;
+  files.reads_world(words.world);
+  if (words.restore != words.save)
+    files.reads(words.restore, "--restore");  // a state that goes on may stay in one file
+  WrittenFiles::writes_folder(words.out, "--out");
+  files.writes(words.log.mcap, "--mcap");
+  files.writes(words.log.wide, "--wide");
+  files.writes(words.save, "--save");
+}
+
 // Throws Error.
 World asked_world(RunWords& words) {
+  check_written(words);
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
   if (!words.view && (words.view_at.is_paused || !words.view_at.origins.empty()))
     throw Error(Exit::invalid_input, "--paused and --origin need --view beside them");
+  if (!words.view && (words.view_at.port != ViewSettings{}.port || !words.view_at.token.empty() ||
+                      words.view_at.address != ViewSettings{}.address))
+    throw Error(Exit::invalid_input, "--port, --address and --token need --view beside them");
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
@@ -195,11 +212,21 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   const auto& records = world.records;
   Simulation run(world, standard(), {plugin_path(words.plugins), words.workers, {}});
   check_records(run);
+  for (const std::string& term : double_terms(run)) fmt::print(stderr, "muster: warning: {}\n", term);
   if (!words.restore.empty()) restore(run, words.restore);
   set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)
     throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
                                          " s, after the end of the run at " + print_real(run.world().until()) + " s");
+  if (!words.restore.empty() && run.tick() == run.world().ticks && !words.expected)
+    fmt::print(
+        stderr,
+        "muster: note: --restore: {} stands at {} s, the end of the run, so that no tick is run; expected a later "
+        "end (--until)\n",
+        words.restore, print_real(run.time()));
+  if (!words.log.wide.empty() && records.empty())
+    throw Error(Exit::invalid_input,
+                "--wide: the world records no table; expected <record table=\"robot/*/pose\"/>, or --record");
   std::optional<RunRecord> record;
   std::optional<RunPictures> pictures;
   std::optional<RunLogFiles> log;

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <set>
+
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_file/params.hpp"
@@ -41,18 +43,45 @@ World world_of(const std::string& path, const RunOptions& words) {
   return world;
 }
 
+// Attributes of the world's file that no run changes, and those that have an option of their own.
+void refuse_fixed(const World& world, const std::string& path) {
+  const auto slash = path.rfind('/');
+  const std::string name = slash == path.npos ? path : path.substr(slash + 1);
+  const std::string owner = slash == path.npos ? "world" : path.substr(0, slash);
+  if (owner == "world" && (name == "until" || name == "seed"))
+    throw Error(Exit::invalid_input, "--set: " + quote(path) + " is no parameter; expected --" + name);
+  if (owner == "world" && name == "dt")
+    throw Error(Exit::invalid_input, "--set: " + quote(path) + " is no parameter; expected it in " +
+                                         world.file.string() + ", <world dt=\"...\">");
+  static const std::set<std::string> at_start = {"at", "heading", "model", "fittings", "packages", "antenna"};
+  for (const RowDeclaration& row : world.rows) {
+    if (row.set != "robot" || !at_start.count(name) || (owner != row.name && owner != "robot/" + row.name)) continue;
+    throw Error(Exit::invalid_input, "--set: " + quote(path) +
+                                         " is no parameter: what a robot is and where it starts "
+                                         "stand in the world's file; expected it there, at " +
+                                         row.place.text());
+  }
+}
+
 void set_parameters(Simulation& run, const std::vector<std::string>& given) {
+  std::set<std::string> seen;
   for (const auto& one : given) {
     const auto equals = one.find('=');
-    if (equals == std::string::npos) throw Error(Exit::invalid_input, "--set " + quote(one) + ": expected PATH=VALUE");
+    if (equals == std::string::npos)
+      throw Error(Exit::invalid_input, "--set " + quote(one) + ": expected PATH=VALUE, without blanks");
     const std::string path = one.substr(0, equals);
+    if (!seen.insert(path).second)
+      throw Error(Exit::invalid_input, "--set: " + path + " is given more than once; expected one value");
+    refuse_fixed(run.world(), path);
     const auto info = run.parameter(path);
     const XmlAttribute attribute{path, one.substr(equals + 1), {"--set"}, {"--set"}};
     const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
       throw invalid(place, "a reference cannot be set on the command line");
     };
-    run.set_parameter(
-        path, attribute_values(*info.declared, 1, attribute, no_rows, [](const Place&, const std::string&) {}).at(0));
+    const Warn warn = [](const Place& place, const std::string& message) {
+      fmt::print(stderr, "muster: warning: {}: {}\n", place.text(), message);
+    };
+    run.set_parameter(path, attribute_values(*info.declared, 1, attribute, no_rows, warn).at(0));
   }
 }
 

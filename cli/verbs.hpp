@@ -57,6 +57,9 @@ class Progress {
   int last_ = -1;
 };
 
+// Throws Error where the world has no radio channel: no link between radios.
+void expect_channel(const Simulation& run);
+
 // Set by SIGINT; a run ends whole at the next tick.
 bool interrupted();
 void watch_interrupt();

@@ -242,7 +242,7 @@ class Converter {
 
   void set_limits(const urdf::JointLimits& limits, Joint& joint, int line) {
     const auto fail = [&](const char* what) { source_.fail(line, "joint '" + joint.name + "': " + what); };
-    if (limits.lower > limits.upper) fail("lower limit is above the upper one");
+    if (limits.lower > limits.upper) fail("lower limit is above the upper one; are they exchanged?");
     if (limits.effort < 0 || limits.velocity < 0) fail("effort and velocity limits must not be below 0");
     if (law_of(joint.kind).has_limits) {
       joint.lower = limits.lower;
@@ -360,6 +360,8 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
   if (!is_mjcf) read_gazebo(source, root, robot);
   derive_drive(source, root, robot);
   if (!is_mjcf) warn_of_undriven(source, root, robot);
+  if (more.RootElement()) warn_of_doubts(fittings, *more.RootElement(), robot);
+  if (!is_mjcf) warn_of_doubts(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
   if (!is_mjcf) warn_of_blind_lasers(source, root, robot);
   return robot;

@@ -42,6 +42,8 @@ void check_numbers(const Source& source, const XMLElement& element, const std::s
       source.fail(element.GetLineNum(), what + "=\"" + text + "\" is wrong; expected " + expected);
     }
   }
+  if (element.Name() == std::string("collision") && !element.FirstChildElement("geometry"))
+    source.fail(element.GetLineNum(), owner + ": <collision> has no <geometry>");
   for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
     check_numbers(source, *child, owner);
   }
@@ -92,7 +94,8 @@ void check_joint(const Source& source, const XMLElement& joint, const std::strin
   if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
     const bool itself = required(source, *mimic, "joint") == name;
     source.fail(mimic->GetLineNum(),
-                "joint '" + name + "': " + (itself ? "mimics itself" : "<mimic> is not supported"));
+                "joint '" + name + "': " +
+                    (itself ? "mimics itself" : "<mimic> is not supported; leave it out: the joint then moves freely"));
   }
 }
 
@@ -178,6 +181,17 @@ double positive(const Source& source, const XMLElement& element, const char* att
   return *value;
 }
 
+// Colours of a <material> of the robot, which urdfdom refuses in other words.
+void check_colours(const Source& source, const XMLElement& element) {
+  const char* text = element.Name() == std::string("color") ? element.Attribute("rgba") : nullptr;
+  const auto values = parse_numbers(text ? text : "");
+  const auto is_off = [](double value) { return !(value >= 0 && value <= 1); };
+  if (text && (!values || values->size() != 4 || std::any_of(values->begin(), values->end(), is_off)))
+    source.fail(element.GetLineNum(), "<color> rgba=\"" + std::string(text) + "\": expected four numbers from 0 to 1");
+  for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+    check_colours(source, *child);
+}
+
 Outline check_urdf(const Source& source, const XMLElement& robot) {
   const std::vector<std::string> known = {"link",   "joint",        "material", "muster",
                                           "gazebo", "transmission", "sensor",   "ros2_control"};
@@ -202,6 +216,10 @@ Outline check_urdf(const Source& source, const XMLElement& robot) {
     edges.push_back(joint_edge(source, *element, name));
   }
   if (outline.link_lines.empty()) source.fail(robot.GetLineNum(), "has no links");
+  for (const auto* each = robot.FirstChildElement(); each; each = each->NextSiblingElement()) {
+    const std::string kind = each->Name();
+    if (kind == "material") check_colours(source, *each);
+  }
   if (outline.link_lines.size() > max_links) source.fail(robot.GetLineNum(), "has more than 10000 links");
   order_tree(source, edges, outline);
   return outline;

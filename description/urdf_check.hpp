@@ -56,6 +56,10 @@ void read_sensor(const Source& source, const tinyxml2::XMLElement& element, Robo
 // After all is read: warns of lasers whose range no <muster> gives.
 void warn_of_blind_lasers(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 
+// After all is read: warns of angles that look like degrees, of friction that looks like per cent, and of transmissions
+// of joints that are not there.
+void warn_of_doubts(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+
 // Turns joints whose axis is within a degree of an axis of the robot's frame onto it, with a warning.
 void snap_axes(const Source& source, const Outline& outline, Robot& robot);
 

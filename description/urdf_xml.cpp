@@ -152,7 +152,9 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
   parse_xml(source, text, document);
   const XMLElement* root = document.RootElement();
   if (!root || root->Name() != std::string("robot"))
-    source.fail(root ? root->GetLineNum() : 1, "is not URDF; expected <robot>");
+    source.fail(root ? root->GetLineNum() : 1,
+                (root && root->Name() == std::string("sdf") ? "is SDF, not URDF" : std::string("is not URDF")) +
+                    "; expected <robot>");
   refuse_xacro(source, *root);
 }
 

@@ -175,11 +175,10 @@ std::string not_found(const std::string& id, const Library::SearchPath& search_p
     folders.push_back(folder.string());
     for (const std::filesystem::path& file : libraries_in(folder)) ids.push_back(likely_id(file));
   }
-  const std::string near = nearest(id, ids);
   return fmt::format(
       "{} not found; looked in {}{}", file_name(id),
       folders.empty() ? "no folder: the plugin path is empty" : fmt::format("{}", fmt::join(folders, ", ")),
-      near.empty() ? "" : fmt::format("; did you mean {}?", near));
+      did_you_mean(id, ids));
 }
 
 std::filesystem::path find(const std::string& id, const Library::SearchPath& search_path) {

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "text/synonyms.hpp"
+
 namespace muster {
 namespace {
 
 constexpr std::size_t most_quoted_bytes = 60;
 constexpr std::size_t most_listed = 30;
+constexpr std::size_t short_list = 20;  // that a reader sees beyond
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -82,9 +85,23 @@ std::string expected_one_of(const std::vector<std::string>& valid) {
   return (valid.size() == 1 ? "expected " : "expected one of ") + listed(valid);
 }
 
+std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& valid) {
+  std::string found = synonym(wrong, valid);
+  if (found.empty()) found = nearest(wrong, valid);
+  constexpr std::size_t telling = 4;  // letters; a shorter end is that of too many names
+  for (const std::string& name : valid) {
+    const bool ends_in_it = wrong.size() >= telling && name.size() > wrong.size() + 1 && name.ends_with(wrong);
+    if (found.empty() && ends_in_it &&
+        std::string_view("/.").find(name[name.size() - wrong.size() - 1]) != std::string_view::npos)
+      found = name;
+  }
+  return found.empty() ? "" : "; did you mean " + quote(found) + "?";
+}
+
 std::string suggest(std::string_view wrong, const std::vector<std::string>& valid) {
-  const std::string near = nearest(wrong, valid);
-  return expected_one_of(valid) + (near.empty() ? "" : "; did you mean " + quote(near) + "?");
+  const std::string question = did_you_mean(wrong, valid);
+  if (valid.size() <= short_list || question.empty()) return expected_one_of(valid) + question;
+  return question.substr(2) + ' ' + expected_one_of(valid);
 }
 
 }  // namespace muster

@@ -23,7 +23,12 @@ std::string listed(const std::vector<std::string>& names);
 // `expected one of a, b, c`, at most 30 of them.
 std::string expected_one_of(const std::vector<std::string>& valid);
 
-// `expected one of a, b, c; did you mean "b"?`; without the question if nothing is near.
+// `; did you mean "b"?`: what the word means elsewhere (text/synonyms.hpp), or the nearest name, or the one that ends
+// in it after a slash or a dot; empty if there is none.
+std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& valid);
+
+// `expected one of a, b, c; did you mean "b"?`; without the question if nothing is near. Of a long list the question
+// stands first: `did you mean "b"? expected one of a, b, c, ...`.
 std::string suggest(std::string_view wrong, const std::vector<std::string>& valid);
 
 }  // namespace muster

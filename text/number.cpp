@@ -57,12 +57,22 @@ bool is_unit(std::string_view text) {
   return std::find(std::begin(units), std::end(units), text) != std::end(units);
 }
 
+// "2024-05-03T12:00:00"
+bool is_date(std::string_view text) {
+  constexpr std::string_view form = "dddd-dd-dd";
+  return text.size() >= form.size() && std::equal(form.begin(), form.end(), text.begin(), [](char f, char c) {
+           return f == 'd' ? c >= '0' && c <= '9' : c == f;
+         });
+}
+
 template <class Number>
 std::string why_not(std::string_view text, std::string_view kind) {
   std::string refusal = quote(text) + " is not " + std::string(kind);
   if (text.empty()) return refusal + "; the text is empty";
   if (text.find_first_of(white_space) != text.npos) return refusal + "; it has spaces in it or around it";
   if (text.find(',') != text.npos) return refusal + "; a decimal point is written '.'";
+  if (text.find("\u2212") != text.npos) return refusal + "; its minus is the sign U+2212; expected '-'";
+  if (is_date(text)) return refusal + ", but a date; expected seconds (muster import reads dates)";
   if (text.front() == '+') return refusal + "; a positive number is written without '+'";
   if (is_hexadecimal(text)) return refusal + "; numbers are written in decimal";
   if (is_not_finite(text)) return refusal + "; it must be finite";

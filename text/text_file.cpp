@@ -116,6 +116,8 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   const Place place{result.file};
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw invalid(place, "is UTF-16; expected UTF-8");
   if (text.starts_with("\x1F\x8B")) throw invalid(place, "is compressed by gzip; expected plain text");
+  if (text.starts_with("PK\x03"))
+    throw invalid(place, "is a ZIP archive, as .xlsx and .ods are; expected plain text, such as CSV in UTF-8");
   std::size_t skipped = 0;
   if (text.starts_with("\xEF\xBB\xBF")) {
     skipped = 3;

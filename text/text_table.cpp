@@ -20,6 +20,21 @@ struct TextHash : std::hash<std::string_view> {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; }
 bool is_quoted(std::string_view raw) { return raw.starts_with('"'); }
+// ": 1 ms is 0.001 s"; empty for units that have nothing in common.
+std::string conversion(const std::string& from, const std::string& to) {
+  struct Known {
+    std::string_view from, to, words;
+  };
+  static constexpr Known known[] = {{"ms", "s", "1 ms is 0.001 s"},
+                                    {"us", "s", "1 us is 0.000001 s"},
+                                    {"cm", "m", "1 cm is 0.01 m"},
+                                    {"mm", "m", "1 mm is 0.001 m"},
+                                    {"deg", "rad", "1 deg is 0.0174533 rad"},
+                                    {"mW", "dBm", "10 log10 of the milliwatts"}};
+  for (const Known& one : known)
+    if (one.from == from && one.to == to) return ": " + std::string(one.words);
+  return "";
+}
 bool has_outer_space(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '\t' || text.back() == ' ' || text.back() == '\t');
 }
@@ -96,6 +111,7 @@ std::size_t TextTable::cell_end(std::size_t cell) const {
     while (at < text.size() && text[at] != ',' && text[at] != '"' && !is_control(text[at])) ++at;
   }
   if (at == text.size() || text[at] == ',' || text[at] == '\n' || text.compare(at, 2, "\r\n") == 0) return at;
+  if (text[at] == '\r') throw invalid(file_.place(at), "the line ends in CR alone; expected LF or CRLF");
   if (is_control(text[at]))
     throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) + " is not allowed");
   throw invalid(file_.place(at),
@@ -108,6 +124,10 @@ void TextTable::fail_ragged(std::size_t found) const {
   const std::string& text = file_.text;
   if (text[start] == '\n' || text[start] == '\r')
     throw invalid(file_.place(start), "the line is empty; expected a row");
+  const std::string first = text.substr(0, text.find_first_of("\r\n"));
+  if (row_starts_.size() == 2 && width_ == 1 && first.find_first_of(";\t") == first.npos)
+    throw invalid(file_.place(0), "the first line is " + (first.empty() ? "empty" : quote(first)) +
+                                      " and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");
   const std::string more = found > width_ ? " or more" : "";
   throw invalid(file_.place(start), "the row has " + std::to_string(found) + more + (found == 1 ? " cell" : " cells") +
                                         "; expected " + std::to_string(width_) +
@@ -120,6 +140,12 @@ void TextTable::read_header() {
     throw invalid(header_place(0),
                   "no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
                   "readings between ';' or tabs)");
+  bool has_names = false;
+  for (std::size_t column = 0; column < width_; ++column) has_names = has_names || !parse_real(raw(0, column));
+  if (!has_names)
+    throw invalid(header_place(0),
+                  "the first line has numbers and no names; expected a header above it, such as "
+                  "x[m],y[m]");
   std::unordered_map<std::string, std::size_t> seen;
   for (std::size_t column = 0; column < width_; ++column) {
     columns_.push_back(read_label(column));
@@ -166,8 +192,8 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
                                        (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }
   if (columns_[*found].unit == unit) return *found;
-  throw invalid(header_place(*found),
-                "column " + quote(columns_[*found].label()) + " has the wrong unit; expected " + quote(wanted.label()));
+  throw invalid(header_place(*found), "column " + quote(columns_[*found].label()) + " has the wrong unit; expected " +
+                                          quote(wanted.label()) + conversion(columns_[*found].unit, wanted.unit));
 }
 
 bool TextTable::is_numeric(std::size_t column) const {
@@ -193,6 +219,8 @@ std::vector<double> TextTable::reals(std::size_t column, Allow allow) const {
       values.push_back(std::numeric_limits<double>::quiet_NaN());
     } else if (allow.infinite && (cell == "inf" || cell == "-inf")) {
       values.push_back(cell == "inf" ? infinity : -infinity);
+    } else if (cell_text(cell) == columns_[column].label()) {
+      throw invalid(place(row, 0), "the line repeats the header, as in two tables joined; expected one header");
     } else {
       fail_cell(row, column, why_not_number(cell));
     }

@@ -75,6 +75,8 @@ class Scan {
     if (at_ == text_.size()) return false;
     if (text_[at_] == '<') return true;
     const std::string_view words = text_.substr(at_, text_.find_first_of("<\r\n", at_) - at_);
+    if (text_.substr(0, at_).find('<') == text_.npos)
+      fail(at_, "the file begins with " + quote(words) + "; expected XML, which begins with <");
     fail(at_, "the text " + quote(words) + " stands between elements; expected elements and comments only" +
                   (open_.size() < 2
                        ? ""

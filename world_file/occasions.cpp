@@ -135,7 +135,7 @@ void read_at(const XmlElement& element, const Standard& standard, World& world) 
       occasion.rows.push_back(joining(child, world));  // of a live set: read_rows() has refused others
     } else {
       throw invalid(child.place, "<" + child.name + "> is no element of <at>; expected a plugin (with a dot in its " +
-                                     "name) or " + suggest(child.name, of_at).substr(9));
+                                     "name) or " + expected_one_of(of_at).substr(9) + did_you_mean(child.name, of_at));
     }
   }
   world.occasions.push_back(std::move(occasion));
@@ -169,6 +169,20 @@ void check_occasions(const World& world) {
       if (!first.count(change.instance))
         throw invalid(change.place,
                       "no instance is called " + quote(change.instance) + "; " + suggest(change.instance, valid));
+    }
+  }
+}
+
+void warn_of_vain_changes(World& world) {
+  std::map<std::pair<uint64_t, std::string>, Place> first_set;  // by tick and path
+  for (const Occasion& occasion : world.occasions) {
+    for (const RowChange& change : occasion.rows) {
+      if (occasion.when || change.kind != RowChange::Kind::set) continue;
+      const auto [first, is_new] = first_set.insert({{occasion.tick, change.path}, change.place});
+      if (is_new) continue;
+      const std::string time = print_real(static_cast<double>(occasion.tick) * world.dt) + " s";
+      world.warnings.push_back({change.place, quote(change.path) + " is set twice at " + time + "; the first is at " +
+                                                  first->second.text() + ", and the last one counts"});
     }
   }
 }

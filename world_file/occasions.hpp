@@ -15,4 +15,7 @@ void read_swap_element(const XmlElement& element, World& world);
 // Throws where a plugin is changed that is never there, or inserted under a name that is taken.
 void check_occasions(const World& world);
 
+// Warns of what is set twice at one time. Where a condition decides, nothing is known.
+void warn_of_vain_changes(World& world);
+
 }  // namespace muster

@@ -3,24 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/synonyms.hpp"
 
 namespace muster {
 namespace {
 
-[[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what) {
+[[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what,
+                         const std::string& hint = "") {
   throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " +
-                                       expectation(declared, count) + (count > 1 ? ", with spaces between them" : ""));
+                                       expectation(declared, count) + (count > 1 ? ", with spaces between them" : "") +
+                                       hint);
 }
 
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
   if (value < declared.min || value > declared.max)
-    refuse(declared, count, given, print_real(value) + " is out of bounds");
-  constexpr double turn = 6.283185307179586;
-  if (std::string(declared.unit) == "rad" && std::abs(value) > turn)
-    warn(given.value_place, "attribute " + quote(given.name) + ": " + print_real(value) +
-                                " rad is more than a full turn; are these degrees?");
+    refuse(declared, count, given, print_real(value) + " is out of bounds",
+           unit_hint(declared.unit, value, declared.min, declared.max));
+  if (const std::string doubt = unit_doubt(declared.name, declared.unit, value); !doubt.empty())
+    warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
 }
 
 double choice_value(const muster_param& declared, const XmlAttribute& given) {
@@ -41,8 +44,11 @@ void refuse_unknown(const XmlAttribute& given, const std::string& element, const
 }
 
 Error lacking(const XmlElement& element, const std::string& attribute, const std::string& expected) {
+  std::string foreign;
+  for (const auto& given : element.attributes)
+    if (!synonym(given.name, {attribute}).empty()) foreign = "; is " + quote(given.name) + " meant for it?";
   return invalid(element.place, "<" + element.name + "> has no attribute " + quote(attribute) +
-                                    ", which it needs; expected " + expected);
+                                    ", which it needs; expected " + expected + foreign);
 }
 
 void refuse_inside(const XmlElement& element) {
@@ -119,7 +125,8 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
       const auto n = static_cast<std::size_t>(count);
       const auto values = parse_reals(given.value, n);
       if (!values || (count == 1 && !parse_real(given.value)))
-        refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n));
+        refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n),
+               power_hint(declared.unit, given.value));
       for (const double value : *values) check_bounds(declared, count, given, value, warn);
       return *values;
     }

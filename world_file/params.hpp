@@ -15,7 +15,7 @@ namespace muster {
 // Finds a row's number by its set and name, or throws with the place.
 using FindRow = std::function<double(const std::string& set, const std::string& row, const Place& place)>;
 
-// A warning for the run's events, such as an angle that looks like degrees.
+// A warning for the run's events, such as an angle that looks like degrees, a power that looks like milliwatts.
 using Warn = std::function<void(const Place& place, const std::string& message)>;
 
 // `count` numbers of one attribute, checked. Texts and files give none.

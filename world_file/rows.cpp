@@ -7,6 +7,7 @@
 
 #include "params.hpp"
 #include "text/columns.hpp"
+#include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table.hpp"
@@ -182,6 +183,9 @@ class RowReader {
       throw invalid(file.value_place, "attribute \"file\": there is no file " + quote(path.string()));
     files_.push_back({&element, TextTable::read(path), world_.rows.size()});
     const auto& table = files_.back().table;
+    if (table.rows() == 0)
+      world_.warnings.push_back({file.value_place, "attribute \"file\": " + quote(file.value) +
+                                                       " has no rows below its header, so that it adds nothing"});
     const Element& one = single(element);
     const auto names = table.texts(table.require("name", ""));
     for (std::size_t r = 0; r < table.rows(); ++r) {
@@ -219,7 +223,7 @@ class RowReader {
       const bool may_miss = !std::isnan(defaults[c]) && !load.table.find(columns[c].name);
       cells.push_back(may_miss ? std::vector<double>(load.table.rows(), defaults[c])
                                : read_column(load.table, columns[c]));
-      if (!may_miss) check_bounds(load.table, single(*load.element), table, columns, c, cells.back());
+      if (!may_miss) check_bounds(load.table, single(*load.element), table, columns, c, cells.back(), world_.warnings);
     }
     for (std::size_t c = 0; c < load.table.columns().size(); ++c) {
       const auto& name = load.table.columns()[c].name;
@@ -236,14 +240,20 @@ class RowReader {
 
   // The bounds of the attribute that gives this column where a row is an element of its own.
   void check_bounds(const TextTable& table, const Element& one, const std::string& quantity, const Columns& columns,
-                    std::size_t c, const std::vector<double>& cells) const {
+                    std::size_t c, const std::vector<double>& cells, std::vector<Warning>& warnings) const {
     for (const auto& attribute : one.attributes) {
       if (quantity != attribute.table || attribute.param.kind != MUSTER_REAL) continue;
       const auto plain = plain_columns(attribute, columns.size());
       if (std::find(plain.begin(), plain.end(), c) == plain.end()) continue;
+      bool is_doubted = false;  // told of the first row alone
       for (std::size_t r = 0; r < cells.size(); ++r) {
-        if (cells[r] >= attribute.param.min && cells[r] <= attribute.param.max) continue;
         const auto at = table.require(columns[c].name, columns[c].unit);
+        const std::string doubt = is_doubted ? "" : unit_doubt(columns[c].name, columns[c].unit, cells[r]);
+        if (!doubt.empty()) {
+          warnings.push_back({table.place(r, at), "column " + quote(columns[c].title()) + ": " + doubt});
+          is_doubted = true;
+        }
+        if (cells[r] >= attribute.param.min && cells[r] <= attribute.param.max) continue;
         throw invalid(table.place(r, at), "column " + quote(columns[c].title()) + ": " + print_real(cells[r]) +
                                               " is out of bounds; expected " + expectation(attribute.param));
       }

@@ -18,9 +18,12 @@ constexpr double most_ticks = 1e12;
 uint64_t positive_integer(const XmlAttribute& given) {
   const auto value = parse_integer(given.value);
   if (!value || *value < 1) {
-    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " +
-                                         (value ? given.value + " is out of bounds" : why_not_integer(given.value)) +
-                                         "; expected an integer from 1");
+    throw invalid(
+        given.value_place,
+        "attribute " + quote(given.name) + ": " +
+            (value ? given.value + " is out of bounds" : why_not_integer(given.value)) +
+            "; expected an integer from 1" +
+            (parse_real(given.value) && !value && given.name == "every" ? ": it counts ticks of the world's dt" : ""));
   }
   return static_cast<uint64_t>(*value);
 }
@@ -33,6 +36,7 @@ void check_root(const std::string& name, const Place& place) {
       {"gazebo", ", as in a file of Gazebo; muster reads no SDF: expected <world>"},
       {"robot",
        ", as in a robot's description; expected <world>, with <robot model=\"FILE.urdf\" at=\"0 0 0\"/> in it"},
+      {"launch", ", as in a launch file of ROS; expected <world>"},
       {"mujoco", ", as in a model of MuJoCo; expected <world>"}};
   const auto other = others.find(name);
   throw invalid(place,
@@ -86,6 +90,15 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
                                                     ", so that <" + element.name + "> " + outcome});
 }
 
+// What to do without an element of SDF that has no like here.
+std::string foreign_element(const std::string& name) {
+  if (name == "plugin") return "; a plugin is an element of its own name, such as <physics.simbody/>";
+  if (name == "include") return "; a world is one file";
+  if (name == "light" || name == "scene" || name == "gui") return "; leave it out";
+  if (name == "physics" || name == "gravity") return "; the physics is a plugin, such as <physics.simbody/>";
+  return "";
+}
+
 // An element with a dot in its name is a plugin; any other must be known.
 void read_child(const XmlElement& element, const Standard& standard, World& world) {
   if (element.name == "at") {
@@ -108,11 +121,12 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
     throw invalid(element.place, "<" + element.name +
                                      "> is no element of a world; expected a plugin (with a dot in its name" +
                                      (type ? ": <" + element.name + "." + type->value + "/>" : "") + ") or " +
-                                     suggest(element.name, valid).substr(9));
+                                     expected_one_of(valid).substr(9) + did_you_mean(element.name, valid) +
+                                     (type ? "" : foreign_element(element.name)));
   }
 }
 
-void check_names(const World& world) {
+void check_names(World& world) {
   std::map<std::string, Place> seen;
   for (const auto& instance : world.instances) {
     const auto [found, is_new] = seen.emplace(instance.name, instance.place);
@@ -122,6 +136,7 @@ void check_names(const World& world) {
     }
   }
   check_occasions(world);
+  warn_of_vain_changes(world);
 }
 
 }  // namespace
@@ -152,7 +167,8 @@ uint64_t ticks_of(double time, double dt, const Place& place) {
     throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) +
                              " s; expected fewer than 1e+12");
   if (time > 0 && time < dt)
-    throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s");
+    throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) +
+                             " s; expected a longer time, or a smaller dt");
   return static_cast<uint64_t>(ticks);
 }
 

@@ -55,6 +55,10 @@ std::vector<FitParameter> free_parameters(MeasuredWorld& model, const FitOptions
     p.upper = info.declared->max;
     result.push_back(p);
   }
+  if (result.empty() && held.empty() && options.free.empty())
+    throw Error(Exit::invalid_input,
+                "no parameter is free: no part of the world's radio channel has one; expected one that does, such as "
+                "<radio.multiwall/>, or --free PATH");
   if (result.empty()) throw Error(Exit::invalid_input, "no parameter is free; expected one, such as by --free PATH");
   return result;
 }

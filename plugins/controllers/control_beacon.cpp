@@ -20,7 +20,9 @@ struct ControlBeacon {
       : to(s.value("to")),
         period(s.value("period")),
         radio(s.param("radio")),
-        outbox(s.write<Outgoing>("outbox/{radio}/message")) {}
+        outbox(s.write<Outgoing>("outbox/{radio}/message")) {
+    if (s.param("to") == radio) s.warn("self", "attribute \"to\": it speaks to itself; expected another radio");
+  }
 
   void step(const Step& k) const {
     if (is_due(k.time(), k.dt(), k[period])) k.send(outbox, 0, "beacon") = {radio, k[to] < 0 ? null() : k[to], 0};

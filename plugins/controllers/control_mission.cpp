@@ -118,6 +118,7 @@ struct ControlMission {
         inbox(s.read<Incoming>("inbox/{robot}/message")),
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
+    for (const std::string& doubt : program.doubts) s.host()->event(s.host(), ("warning: " + doubt).c_str());
     if (flies) {
       position = s.read<Position3d>("robot/{robot}/position3d");
       velocity = s.write<Velocity3d>("robot/{robot}/velocity3d");

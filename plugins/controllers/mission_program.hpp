@@ -38,6 +38,7 @@ struct Program {
   std::vector<Handler> handlers;
   std::vector<double> links;         // rows of the radios whose messages are measured
   std::vector<std::string> awaited;  // texts of messages that mean something to it
+  std::vector<std::string> doubts;   // warnings with their places, such as of a heading that looks like degrees
   double mark = 0;                   // differs from that of any other mission
 };
 

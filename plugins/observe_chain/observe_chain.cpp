@@ -55,7 +55,13 @@ struct ObserveChain {
     std::istringstream words(s.text("chain"));
     std::vector<std::string> result;
     for (std::string word; words >> word;) result.push_back(word);
-    if (result.size() < 2) throw BadInput("chain=\"" + s.text("chain") + "\" has no link; expected two names or more");
+    const std::string given = "chain=\"" + s.text("chain") + "\"";
+    if (result.size() < 2) throw BadInput(given + " has no link; expected two names or more");
+    for (auto name = result.begin(); name != result.end(); ++name) {
+      if (std::find(result.begin(), name, *name) != name)
+        throw BadInput(given + " names \"" + *name +
+                       "\" twice; expected each radio once, from the nearest to the base to the furthest");
+    }
     return result;
   }
 
@@ -65,18 +71,29 @@ struct ObserveChain {
     for (const std::string& name : names_of(s)) {
       uint32_t row = 0;
       while (row < host->rows(host, "radio") && host->row_name(host, "radio", row) != name) ++row;
-      if (row == host->rows(host, "radio")) throw BadInput("chain: \"" + name + "\" is no radio of this world");
+      if (row == host->rows(host, "radio"))
+        throw BadInput("chain: \"" + name + "\" is no radio of this world" + blanks(name));
       result.push_back(row);
     }
     return result;
   }
 
+  static std::string blanks(const std::string& name) {
+    return name.find_first_of(",;") == name.npos ? "" : "; names stand between blanks, without commas";
+  }
+
   static std::string columns_of(const Setup& s) {
     std::string result;
-    for (std::string name : names_of(s)) {
-      if (name == names_of(s).front()) continue;
+    const std::vector<std::string> names = names_of(s);
+    std::vector<std::string> ends;
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      std::string name = names[i];
       std::replace_if(
           name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+      if (const auto same = std::find(ends.begin(), ends.end(), name); same != ends.end())
+        throw BadInput("chain: both \"" + names[static_cast<std::size_t>(same - ends.begin()) + 1] + "\" and \"" +
+                       names[i] + "\" would give the column level_" + name + "; rename one of these radios");
+      ends.push_back(name);
       result += " level_" + name + "[dBm]? rssi_" + name + "[dBm]? smooth_" + name + "[dBm]? distance_" + name +
                 "[m]? walls_" + name + "[dB]? below_" + name + "[s] worst_" + name + "[dBm]?";
     }

@@ -1,4 +1,5 @@
 // physics.replay: measured poses drive the bodies, so that everything else runs on the real course.
+#include <cstdio>
 #include <muster/plugin.hpp>
 
 #include "description/world_robots.hpp"
@@ -46,6 +47,8 @@ struct PhysicsReplay {
   void read(const Step& k) {
     const auto rows = k[measured];
     courses.resize(k[pose].size());
+    std::vector<Measured> last(courses.size());
+    bool is_doubted = false, is_jumping = false;  // told once
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Measured& m = rows[i];
       const auto robot = static_cast<std::size_t>(m.robot);
@@ -55,13 +58,45 @@ struct PhysicsReplay {
         throw BadInput("measured poses, row " + std::to_string(i + 1) + " (robot '" +
                        std::string(k.name("robot", robot)) + "'): " + what);
       };
+      const auto warn = [&](const std::string& what) {
+        k.warn("self", "measured poses, row " + std::to_string(i + 1) + " (robot '" +
+                           std::string(k.name("robot", robot)) + "'): " + what);
+      };
       if (course.track.empty()) course.has_height = !is_null(m.z);
       if (course.has_height == is_null(m.z)) fail("z is given in some rows only");
       const auto turn = turn_of(m);
-      if (!turn) fail("has neither yaw nor qw, qx, qy, qz of length 1");
+      if (!turn) fail(why_no_turn(m).c_str());
+      if (is_null(m.qw) && std::abs(m.yaw) > whole_turn && !is_doubted) {
+        is_doubted = true;
+        warn(print(m.yaw) + " rad is more than a full turn; are these degrees?");
+      }
+      if (const double jump = std::hypot(m.x - last[robot].x, m.y - last[robot].y), time = m.t - last[robot].t;
+          !course.track.empty() && time > 0 && jump > fastest * time && !is_jumping) {
+        is_jumping = true;
+        warn("it moves by " + print(jump) + " m in " + print(time) + " s");
+      }
+      last[robot] = m;
       if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) fail("time does not rise");
     }
     is_read = true;
+  }
+
+  static constexpr double whole_turn = 6.3;  // rad, and a little
+  static constexpr double fastest = 200;     // m/s; no robot is
+
+  static std::string print(double value) {
+    char text[32];
+    return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.6g", value))};
+  }
+
+  static std::string why_no_turn(const Measured& m) {
+    const std::pair<const char*, double> parts[] = {{"qw", m.qw}, {"qx", m.qx}, {"qy", m.qy}, {"qz", m.qz}};
+    std::string missing;
+    for (const auto& [name, value] : parts)
+      if (is_null(value)) missing += (missing.empty() ? "" : ", ") + std::string(name);
+    const std::string what = "has neither yaw nor qw, qx, qy, qz of length 1: ";
+    if (!missing.empty()) return what + (missing == "qw, qx, qy, qz" ? "it has none of them" : missing + " is missing");
+    return what + "its length is " + print(std::sqrt(m.qw * m.qw + m.qx * m.qx + m.qy * m.qy + m.qz * m.qz));
   }
 
   static std::optional<Eigen::Quaterniond> turn_of(const Measured& m) {

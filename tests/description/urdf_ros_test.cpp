@@ -57,6 +57,23 @@ TEST(UrdfOfRos, RoundedAxisIsTurnedOntoTheRobots) {
   EXPECT_EQ(robot.joints[0].origin.translation(), Eigen::Vector3d(0, 1, 0));
 }
 
+TEST(UrdfOfRos, DegreesAndPerCentAreDoubted) {
+  const std::string arm = link("base", mass) + link("arm", mass);
+  const auto joint = [&](const std::string& origin, const std::string& limit) {
+    return arm + "<joint name='j' type='revolute'><parent link='base'/><child link='arm'/><origin rpy='" + origin +
+           "'/><axis xyz='0 1 0'/><limit " + limit + " effort='1' velocity='1'/></joint>\n";
+  };
+  EXPECT_EQ(warnings_of(joint("0 0 90", "lower='-1' upper='1'")),
+            Texts({"4: joint 'j': <origin> rpy=\"0 0 90\": 90 rad is more than a full turn; are these degrees?"}));
+  EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-90' upper='90'")),
+            Texts({"4: joint 'j': limits of -90 to 90 rad are more than a full turn; are these degrees?"}));
+  EXPECT_EQ(warnings_of(joint("0 0 6.283185307179586", "lower='-6.2832' upper='6.2832'")), Texts());
+  EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-1000' upper='1000'")), Texts());  // no degrees: it has no limits
+  EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-1' upper='1'") +
+                        "<transmission name='t'>\n<joint name='jj'/></transmission>\n"),
+            Texts({"6: <transmission> 't': joint 'jj' is not known; did you mean 'j'?"}));
+}
+
 // An axis a degree and more away is meant, and one within a microradian needs nothing.
 TEST(UrdfOfRos, OtherAxesStay) {
   for (const char* angle : {"0.02", "0.0000005"}) {

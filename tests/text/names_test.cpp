@@ -39,6 +39,31 @@ TEST(Names, SuggestsInOneLine) {
   EXPECT_LT(list.size(), 150u);
 }
 
+TEST(Names, KnowsWhatOtherSimulatorsCallThings) {
+  const std::vector<std::string> of_robot = {"name", "model", "at", "heading"}, of_station = {"name", "at", "yaw"};
+  EXPECT_EQ(did_you_mean("yaw", of_robot), R"(; did you mean "heading"?)");
+  EXPECT_EQ(did_you_mean("heading", of_station), R"(; did you mean "yaw"?)");
+  EXPECT_EQ(did_you_mean("pose", of_robot), R"(; did you mean "at"?)");
+  EXPECT_EQ(did_you_mean("duration", {"name", "dt", "until", "seed"}), R"(; did you mean "until"?)");
+  EXPECT_EQ(did_you_mean("rate", {"every", "radio", "period"}), R"(; did you mean "period"?)");
+  EXPECT_EQ(did_you_mean("rate", {"radio"}), "");  // what it means is not there
+  EXPECT_EQ(did_you_mean("modle", of_robot), R"(; did you mean "model"?)");
+}
+
+TEST(Names, FindsANameByItsEnd) {
+  EXPECT_EQ(did_you_mean("simbody", {"control.goal2d", "physics.simbody"}), R"(; did you mean "physics.simbody"?)");
+  EXPECT_EQ(did_you_mean("speed", {"steer/turn_speed", "steer/speed"}), R"(; did you mean "steer/speed"?)");
+  EXPECT_EQ(did_you_mean("n", {"radio.multiwall/n"}), "");  // would be found in too many
+}
+
+TEST(Names, OfALongListTheQuestionStandsFirst) {
+  std::vector<std::string> many(25, "x");
+  many[20] = "steer/speed";
+  const std::string text = suggest("steer.speed", many);
+  EXPECT_EQ(text.rfind(R"(did you mean "steer/speed"? expected one of x, x, )", 0), 0u) << text;
+  EXPECT_EQ(suggest("nothing", many).rfind("expected one of x, x, ", 0), 0u);
+}
+
 TEST(Names, QuotesStayOnOneShortLine) {
   EXPECT_EQ(quote("a\nb\x7f"), R"("a\x0ab\x7f")");
   EXPECT_EQ(quote(std::string(61, 'a')), '"' + std::string(60, 'a') + "...\"");

@@ -137,7 +137,16 @@ TEST_F(Table, RefusesBrokenCells) {
   EXPECT_EQ(error_in("a,b\n1,x\"y\n"),
             "d.csv:2:4: a quote inside a cell; expected the whole cell in quotes, its own quotes doubled");
   EXPECT_EQ(error_in(std::string_view("a,b\n1,\0\n", 8)), R"(d.csv:2:3: the control character "\x00" is not allowed)");
-  EXPECT_EQ(error_in("a,b\r1,2\r"), R"(d.csv:1:4: the control character "\x0d" is not allowed)");
+  EXPECT_EQ(
+      error_in("# my log\na,b\n1,2\n"),
+      R"(d.csv:1:1: the first line is "# my log" and no header; expected one there, such as t[s],tx,rx,rssi[dBm])");
+  EXPECT_EQ(error_in("\na,b\n1,2\n"),
+            "d.csv:1:1: the first line is empty and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");
+  EXPECT_EQ(error_in("1,2\n3,4\n"),
+            "d.csv:1:1: the first line has numbers and no names; expected a header above it, such as x[m],y[m]");
+  EXPECT_EQ(error_in("PK\x03\x04"),
+            "d.csv: is a ZIP archive, as .xlsx and .ods are; expected plain text, such as CSV in UTF-8");
+  EXPECT_EQ(error_in("a,b\r1,2\r"), "d.csv:1:4: the line ends in CR alone; expected LF or CRLF");
 }
 
 TEST_F(Table, RefusesWhatIsNoNumber) {
@@ -146,6 +155,11 @@ TEST_F(Table, RefusesWhatIsNoNumber) {
   };
   const std::string place = "d.csv:3:6: column \"rssi[dBm]\": ";
   EXPECT_EQ(in_rssi("\"1,5\""), place + "\"1,5\" is not a number; a decimal point is written '.'");
+  EXPECT_EQ(in_rssi("\u221237.59"),
+            place + "\"\u221237.59\" is not a number; its minus is the sign U+2212; expected '-'");
+  EXPECT_EQ(
+      in_rssi("2024-05-03T12:00:00"),
+      place + "\"2024-05-03T12:00:00\" is not a number, but a date; expected seconds (muster import reads dates)");
   EXPECT_EQ(in_rssi("nan"), place + "\"nan\" is not a number; it must be finite");
   EXPECT_EQ(in_rssi("inf"), place + "\"inf\" is not a number; it must be finite");
   EXPECT_EQ(in_rssi(" 1"), place + "\" 1\" is not a number; it has spaces in it or around it");

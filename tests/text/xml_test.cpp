@@ -118,6 +118,8 @@ TEST_F(Xml, RefusesWhatIsNotWellFormed) {
 TEST_F(Xml, IgnoresNothing) {
   EXPECT_EQ(error("<w>\n  hello <a/></w>"),
             "w.xml:2:3: the text \"hello \" stands between elements; expected elements and comments only");
+  EXPECT_EQ(error("world:\n  name: lab\n"),
+            "w.xml:1:1: the file begins with \"world:\"; expected XML, which begins with <");
   EXPECT_EQ(error("<w/>\nbye"),
             "w.xml:2:1: the text \"bye\" stands between elements; expected elements and comments only");
   EXPECT_EQ(error("<w><![CDATA[x]]></w>"), "w.xml:1:4: CDATA is text; expected elements and comments only");

@@ -76,7 +76,7 @@ TEST_F(Faults, Fault6Numbers) {
             "world.xml:2:13: attribute \"every\": 0 is out of bounds; expected an integer from 1");
   EXPECT_EQ(error_with("<a.b every='2.5'/>"),
             "world.xml:2:13: attribute \"every\": \"2.5\" is not an integer; \".5\" follows the number; expected an "
-            "integer from 1");
+            "integer from 1: it counts ticks of the world's dt");
   EXPECT_EQ(error_with("<a.b revision='-1'/>"),
             "world.xml:2:16: attribute \"revision\": -1 is out of bounds; expected an integer from 1");
   EXPECT_THAT(error_with("<robot at='0 0'/>"), HasSubstr("world.xml:2:12: attribute \"at\": "));
@@ -99,17 +99,57 @@ TEST_F(Faults, Fault7Units) {
             "world.xml:1:12: attribute \"dt\": -1 is out of bounds; expected the tick in seconds, from 1e-09");
   EXPECT_EQ(error("<world dt='0.1' until='-1'/>"),
             "world.xml:1:24: attribute \"until\": -1 is out of bounds; expected the end of the run in seconds, from 0");
-  EXPECT_EQ(error("<world dt='2' until='1.5'/>"), "world.xml:1:22: 1.5 s are less than a tick of 2 s");
+  EXPECT_EQ(error("<world dt='2' until='1.5'/>"),
+            "world.xml:1:22: 1.5 s are less than a tick of 2 s; expected a longer time, or a smaller dt");
   EXPECT_EQ(error("<world dt='1e-6' until='1e6'/>"),
             "world.xml:1:25: 1e+06 s are 1e+12 ticks of 1e-06 s; expected fewer than 1e+12");
 }
 
-TEST_F(Faults, ASwapThatNeverComesIsWarnedAbout) {
-  const World world =
-      read_with("<a.b/>\n<swap at='9.9' instance='a.b' plugin='x.y'/>\n<swap at='10' instance='a.b' plugin='x.y'/>");
+TEST_F(Faults, WordsOfOtherSimulatorsAreUnderstood) {
+  EXPECT_THAT(error_with("<robot name='a' at='0 0 0' yaw='1'/>"), testing::EndsWith("; did you mean \"heading\"?"));
+  EXPECT_THAT(error_with("<station name='a' at='0 0 0' heading='1'/>"), testing::EndsWith("; did you mean \"yaw\"?"));
+  EXPECT_THAT(error("<world dt='0.1' duration='10'/>"), testing::EndsWith("; did you mean \"until\"?"));
+  EXPECT_THAT(error_with("<record topic='/odom'/>"), testing::EndsWith("; is \"topic\" meant for it?"));
+  EXPECT_THAT(error_with("<box size='1 1 1'/>"), testing::EndsWith("; did you mean \"wall\"?"));
+  EXPECT_THAT(error_with("<plugin name='p'/>"),
+              testing::EndsWith("; a plugin is an element of its own name, such as <physics.simbody/>"));
+  EXPECT_EQ(error("<launch/>"),
+            "world.xml:1:1: the root element is <launch>, as in a launch file of ROS; expected <world>");
+}
+
+TEST_F(Faults, UnitsThatLookLikeOthersAreDoubted) {
+  const World world = read_with(walls + "<wall from='0 0' to='9 0' thickness='12' material='m'/>");
   ASSERT_EQ(world.warnings.size(), 1u);
-  EXPECT_EQ(world.warnings[0].place.line, 4);
-  EXPECT_EQ(world.warnings[0].message, "the swap of \"a.b\" comes at the end of the run or after it");
+  EXPECT_EQ(world.warnings[0].message, "attribute \"thickness\": 12 m; is this centimetres?");
+  put("walls.csv",
+      "name,x0[m],y0[m],x1[m],y1[m],thickness[m],material\na,0,0,1,0,0.1,m\nb,0,1,1,1,12,m\nc,0,2,1,2,12,m\n");
+  const World of_file = read_with(walls + "<walls file='walls.csv'/>");
+  ASSERT_EQ(of_file.warnings.size(), 1u);
+  EXPECT_EQ(of_file.warnings[0].place.line, 3);
+  EXPECT_EQ(of_file.warnings[0].message, "column \"thickness[m]\": 12 m; is this centimetres?");
+}
+
+TEST_F(Faults, WhatIsSetTwiceAtATimeIsWarnedOf) {
+  const auto warned = [&](const std::string& elements) {
+    std::vector<std::string> result;
+    for (const Warning& warning : read_with("<robot name='a' at='0 0 0'/>\n" + elements).warnings)
+      result.push_back(std::to_string(warning.place.line) + ": " + temporary.inside(warning.message));
+    return result;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(warned("<at t='1'><set path='x/y' value='1'/>\n<set path='x/y' value='2'/></at>"),
+              ElementsAre("4: \"x/y\" is set twice at 1 s; the first is at world.xml:3:22, and the last one counts"));
+  EXPECT_THAT(warned("<at t='1'><set path='x/y' value='1'/></at>\n<at t='2'><set path='x/y' value='2'/></at>\n"
+                     "<at when='robot/a/pose/x above 1'><leave robot='a'/></at><at t='3'><leave robot='a'/></at>"),
+              ElementsAre());
+}
+
+TEST_F(Faults, AFileOfNoWallsIsWarnedOf) {
+  put("walls.csv", "name,x0[m],y0[m],x1[m],y1[m],material\n");
+  const World world = read_with(walls + "<walls file='walls.csv'/>");
+  ASSERT_EQ(world.warnings.size(), 1u);
+  EXPECT_EQ(world.warnings[0].message,
+            "attribute \"file\": \"walls.csv\" has no rows below its header, so that it adds nothing");
 }
 
 TEST_F(Faults, Fault13OneNameTwice) {

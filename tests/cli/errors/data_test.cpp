@@ -78,7 +78,7 @@ TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
   expect_refused(Data().set(0, 7, "level[dBm]").text(),
                  ":1:1: no column \"rssi[dBm]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
   expect_refused(Data().set(0, 5, "rx_x[mm]").text(),
-                 ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\"");
+                 ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\": 1 mm is 0.001 m");
 }
 
 TEST(Fault25, RowsThatRepeatAndTimeThatRunsBackwards) {

@@ -56,7 +56,7 @@ TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {
                                         "--record", "instance/good/cell", "--out"};
   auto words = run;
   words.push_back("file");
-  expect_error(folder.muster(words), 74, "file: cannot be made: Not a directory");
+  expect_error(folder.muster(words), 2, "--out: file is a file; expected a folder");
   folder.write("data.csv", "tx,rx,distance[m],rssi[dBm]\na,b,1,-40\na,b,2,-47\na,b,3,-50\na,b,4,-53\n");
   folder.write("radio.xml", world_of("<radio.multiwall l0=\"40\" n=\"2\"/>"));
   expect_error(folder.muster({"fit", "radio.xml", "--data", "data.csv", "--out", "file/in"}), 74,

@@ -43,7 +43,7 @@ TEST(Fault15, AnAbsentPluginIsToldWithTheFoldersAndTheNearest) {
   const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.god/>"), 3,
                "world.xml:1:36: plugin \"test.god\": test_god.so not found; looked in " + toys + ", " +
-                   MUSTER_PLUGINS_DIR + "; did you mean test.good?");
+                   MUSTER_PLUGINS_DIR + "; did you mean \"test.good\"?");
 }
 
 TEST(Fault15, AFileThatIsNoPluginIsRefusedInOneLine) {
@@ -150,20 +150,20 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
       2,
       "world.xml:1:96: two (test.second_writer): writes \"robot/*/command\"; so does world.xml:1:64: one "
       "(test.second_writer); expected one of the two");
-  expect_error(
-      run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
-      "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; expected "
-      "one of door/*/shape, "
-      "door/*/state, endpoint/*/pose, endpoint/*/radio, floor/*/shape, heard/*/peer, inbox/*/message, "
-      "instance/test.reads_nobodys/*/cell, "
-      "link/*/ends, "
-      "link/*/rssi, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, range/*/message, robot/*/drive, "
-      "robot/*/gait, "
-      "robot/*/geometry, robot/*/gps, robot/*/imu, robot/*/legs, "
-      "robot/*/odometry, robot/*/pose, "
-      "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
-      "scan/*/message, ... (31 in all); did you "
-      "mean \"robot/*/pose\"?");
+  expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.reads_nobodys/>)"), 2,
+               "world.xml:1:64: test.reads_nobodys (test.reads_nobodys): reads \"robot/*/poise\", which nobody writes; "
+               "did you mean "
+               "\"robot/*/pose\"? expected one of door/*/shape, "
+               "door/*/state, endpoint/*/pose, endpoint/*/radio, floor/*/shape, heard/*/peer, inbox/*/message, "
+               "instance/test.reads_nobodys/*/cell, "
+               "link/*/ends, "
+               "link/*/rssi, material/*/colour, material/*/loss, mesh/*/shape, radio/*/mount, radio/*/traffic, "
+               "range/*/message, robot/*/drive, "
+               "robot/*/gait, "
+               "robot/*/geometry, robot/*/gps, robot/*/imu, robot/*/legs, "
+               "robot/*/odometry, robot/*/pose, "
+               "robot/*/position3d, robot/*/rotor_drive, robot/*/rotors, robot/*/stall, robot/*/twist, robot/*/wheels, "
+               "... (32 in all)");
 }
 
 }  // namespace

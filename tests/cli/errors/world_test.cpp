@@ -83,7 +83,8 @@ TEST(Fault7, ImpossibleQuantitiesAreRefused) {
   folder.expect_refused(
       R"(<world dt="0" until="1"/>)",
       "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");
-  folder.expect_refused(R"(<world dt="2" until="1"/>)", "world.xml:1:22: 1 s are less than a tick of 2 s");
+  folder.expect_refused(R"(<world dt="2" until="1"/>)",
+                        "world.xml:1:22: 1 s are less than a tick of 2 s; expected a longer time, or a smaller dt");
   folder.expect_refused(R"(<world dt="0.001" until="1e12"/>)",
                         "world.xml:1:26: 1e+12 s are 1e+15 ticks of 0.001 s; expected fewer than 1e+12");
 }

@@ -12,9 +12,9 @@ TEST(FirstHour, AMisspeltOptionIsToldWithTheNearest) {
   folder.write("world.xml", world_of(""));
   const auto outcome = folder.muster({"run", "world.xml", "--untl", "3"});
   EXPECT_EQ(outcome.exit, 2);
-  EXPECT_THAT(outcome.err, testing::StartsWith(
-                               "muster: error: muster run: there is no option \"--untl\"; expected one of --help, "));
-  EXPECT_THAT(outcome.err, testing::EndsWith("; did you mean \"--until\"?; see muster run --help\n"));
+  EXPECT_THAT(outcome.err, testing::StartsWith("muster: error: muster run: there is no option \"--untl\"; did you mean "
+                                               "\"--until\"? expected one of --help, "));
+  EXPECT_THAT(outcome.err, testing::EndsWith("; see muster run --help\n"));
   expect_error(folder.muster({"check", "world.xml", "other.xml"}), 2,
                "muster check: \"other.xml\" is one word too many; see muster check --help");
 }

@@ -114,7 +114,7 @@ TEST(DatasetFaults, MissingColumnAndWrongUnit) {
             "d.csv:1:1: no column \"rx_y[m]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rssi; did you "
             "mean \"tx_y\"?");
   EXPECT_EQ(reading("tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[mW]\na,b,0,0,1,0,50\n"),
-            "d.csv:1:39: column \"rssi[mW]\" has the wrong unit; expected \"rssi[dBm]\"");
+            "d.csv:1:39: column \"rssi[mW]\" has the wrong unit; expected \"rssi[dBm]\": 10 log10 of the milliwatts");
 }
 
 TEST(DatasetFaults, MixedUnits) {

@@ -148,7 +148,8 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "wide.csv:5: with i = 1: robot -> anchor1 at t = 1 s repeats line 3 with i = 1; expected each (t, tx, rx) "
             "once");
   EXPECT_EQ(failing(with("tx_y[m] =", "tx_y[cm] =")),
-            "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\", and SCALE*COLUMN where that "
+            "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\", and SCALE*COLUMN "
+            "where that "
             "differs");
   EXPECT_EQ(failing(with("tx = \"robot\"", "tx = phone")),
             "m.map:6: \"tx\" is a column of names; expected tx = name phone");

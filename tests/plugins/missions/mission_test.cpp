@@ -234,4 +234,21 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_THAT(refused("<choose><if link='base'><wait seconds='1'/></if></choose>"), HasSubstr("needs one of below"));
 }
 
+TEST_F(Missions, ABeaconToItselfIsWarnedOf) {
+  const Simulation sim = run("<wait seconds='1'/>", "<control.beacon name='calls' radio='base' to='base'/>");
+  const std::vector<std::string> events = said(sim, "calls");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_THAT(events[0], testing::EndsWith("attribute \"to\": it speaks to itself; expected another radio"));
+}
+
+TEST_F(Missions, AHeadingThatLooksLikeDegreesIsWarnedOf) {
+  const Simulation sim = run("<go_to at='1 0' heading='90'/>\n<go_to at='1 0' heading='-3.1'/>");
+  const std::vector<std::string> events = said(sim, "mission");
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_THAT(events[0], testing::StartsWith("warning: "));
+  EXPECT_THAT(
+      events[0],
+      HasSubstr("mission.xml:2:26: attribute \"heading\": 90 rad is more than a full turn; are these degrees?"));
+}
+
 }  // namespace

@@ -59,6 +59,8 @@ TEST_F(Orders, WhatCannotBeIsRefused) {
     const auto at = text.find("orders.xml:");
     return at == text.npos ? text : text.substr(at + 11);
   };
+  EXPECT_EQ(refused("<order at='1' to='base' text='go'/>"),
+            "1:27: attribute \"to\": \"base\" speaks to itself; expected another radio");
   EXPECT_EQ(refused(""), "1:1: <orders> is empty; expected <order at=\"...\" to=\"...\" text=\"...\"/>");
   EXPECT_EQ(refused("<order at='1' text='go' again='1'/>"),
             "1:9: <order> to all is answered by nobody in particular; again=\"...\" needs to=\"...\"");

@@ -84,6 +84,26 @@ std::string refusal(const std::string& csv) {
   return "";
 }
 
+std::vector<std::string> warnings(const std::string& csv) {
+  Folder folder;
+  Simulation run = replayed(folder, csv);
+  run.step();
+  std::vector<std::string> result;
+  for (const auto& event : run.events())
+    if (const auto at = event.message.find("measured poses"); at != std::string::npos)
+      result.push_back(event.message.substr(at));
+  return result;
+}
+
+TEST(Replay, DegreesAndJumpsAreWarnedOfOnce) {
+  const std::string head = "t[s],robot,x[m],y[m],yaw[rad]\n", row = "measured poses, row ";
+  EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,90\n2,a,1,1,180\n"),
+            std::vector<std::string>({row + "2 (robot 'a'): 90 rad is more than a full turn; are these degrees?"}));
+  EXPECT_EQ(warnings(head + "0,a,0,0,0\n0.01,a,500,0,0\n"),
+            std::vector<std::string>({row + "2 (robot 'a'): it moves by 500 m in 0.01 s"}));
+  EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,6.28\n"), std::vector<std::string>());
+}
+
 TEST(Replay, WrongRowsAreNamed) {
   using testing::HasSubstr;
   const std::string head = "t[s],robot,x[m],y[m],z[m],yaw[rad]\n";
@@ -92,7 +112,10 @@ TEST(Replay, WrongRowsAreNamed) {
   EXPECT_THAT(refusal(head + "0,a,0,0,0,0\n1,a,0,0,,0\n"),
               HasSubstr("row 2 (robot 'a'): z is given in some rows only"));
   EXPECT_THAT(refusal(head + "0,a,0,0,0,\n"),
-              HasSubstr("row 1 (robot 'a'): has neither yaw nor qw, qx, qy, qz of length 1"));
+              HasSubstr("row 1 (robot 'a'): has neither yaw nor qw, qx, qy, qz of length 1: it has none of them"));
+  EXPECT_THAT(refusal("t[s],robot,x[m],y[m],qw,qx,qy\n0,a,0,0,1,0,0\n"), HasSubstr("of length 1: qz is missing"));
+  EXPECT_THAT(refusal("t[s],robot,x[m],y[m],qw,qx,qy,qz\n0,a,0,0,0,0,0,0\n"),
+              HasSubstr("of length 1: its length is 0"));
   EXPECT_THAT(refusal(head + "0,c,0,0,0,0\n"), HasSubstr("c"));  // no such robot: the kernel's own refusal
 }
 

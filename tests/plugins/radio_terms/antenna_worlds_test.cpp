@@ -158,8 +158,9 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
       "world.xml:4:1: radio.antenna (radio.antenna): step failed at tick 1 (t = 0.1 s): attribute \"file\": it "
       "radiates more than it is fed: its mean gain over all directions is 3.000 dBi; expected at most 0, or 0.5 for "
       "errors of calibration");
-  EXPECT_EQ(refusal("<radio.antenna pattern=\"table\" file=\"degrees.csv\"/>"),
-            "degrees.csv:1:1: column \"azimuth[deg]\" has the wrong unit; expected \"azimuth[rad]\"");
+  EXPECT_EQ(
+      refusal("<radio.antenna pattern=\"table\" file=\"degrees.csv\"/>"),
+      "degrees.csv:1:1: column \"azimuth[deg]\" has the wrong unit; expected \"azimuth[rad]\": 1 deg is 0.0174533 rad");
   EXPECT_EQ(refusal("<radio.antenna radio=\"a\"/><radio.antenna name=\"second\" radio=\"a\"/>"),
             "world.xml:4:27: second (radio.antenna): writes \"radio/a/antenna\"; so does world.xml:4:1: radio.antenna "
             "(radio.antenna); expected one of the two");
@@ -171,7 +172,8 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
       "world.xml:4:25: attribute \"pattern\": \"yagi\" is not a choice; expected one of dipole, isotropic, cosine, "
       "sector, table");
   EXPECT_EQ(refusal("<radio.antenna beamwidth=\"65\"/>"),
-            "world.xml:4:27: attribute \"beamwidth\": 65 is out of bounds; expected a number from 0.1 to 3.1 rad");
+            "world.xml:4:27: attribute \"beamwidth\": 65 is out of bounds; expected a number from 0.1 to 3.1 rad; 65 "
+            "degrees are 1.134 rad");
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ TEST(Budget, RefusesRadiosThatAreNotThere) {
   expect_error(folder.muster({"probe", "world.xml", "a", "a"}), 2,
                "a radio does not hear itself; expected two radios, not \"a\"");
   folder.write("silent.xml", world_of(walls));
-  expect_error(folder.muster({"probe", "silent.xml", "a", "b"}), 2, "silent.xml: the world has no radio channel");
+  expect_error(folder.muster({"probe", "silent.xml", "a", "b"}), 2,
+               "silent.xml: the world has no radio channel; expected one, such as <radio.multiwall/>");
 }
 
 TEST(RssiMap, IsTheChannelAtTheMiddleOfEachCell) {

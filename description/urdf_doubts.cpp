@@ -1,0 +1,98 @@
+// Figures of a URDF that are legal and look like another unit, or name what is not there.
+#include <algorithm>
+#include <cmath>
+
+#include "description/file_text.hpp"
+#include "description/urdf_check.hpp"
+
+namespace muster::description {
+
+using tinyxml2::XMLElement;
+
+namespace {
+
+constexpr double turn = 6.3;             // rad; a whole one in two digits
+constexpr double degrees_of_turn = 360;  // a limit beyond it means none
+constexpr double stickiest = 5;          // coefficient of friction; rubber on stone has some 1
+
+class Doubts {
+ public:
+  Doubts(const Source& source, Robot& robot) : source_(source), robot_(robot) {}
+
+  void look(const XMLElement& element, const std::string& owner) {
+    const std::string name = element.Name();
+    if (name == "origin") angles(element, owner);
+    if (name == "limit") limits(element, owner);
+    if (name == "differential" || name == "ackermann" || name == "mecanum" || name == "legs") friction(element);
+    for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+      look(*child, owner);
+  }
+
+  void transmission(const XMLElement& element) {
+    std::vector<std::string> names;
+    for (const Joint& joint : robot_.joints) names.push_back(joint.name);
+    for (const auto* joint = element.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint")) {
+      const char* name = joint->Attribute("name");
+      if (!name || std::find(names.begin(), names.end(), name) != names.end()) continue;
+      const char* own = element.Attribute("name");
+      warn(*joint, "<transmission> '" + std::string(own ? own : "") + "': joint '" + name + "' is not known" +
+                       nearest(name, names));
+    }
+  }
+
+ private:
+  void warn(const XMLElement& element, const std::string& what) {
+    robot_.warnings.push_back(source_.file + ":" + std::to_string(element.GetLineNum()) + ": " + what);
+  }
+
+  // 0 where it is not given, or no number.
+  static double number(const XMLElement& element, const char* name) {
+    const char* text = element.Attribute(name);
+    return parse_number(text ? text : "").value_or(0);
+  }
+
+  void angles(const XMLElement& element, const std::string& owner) {
+    const char* text = element.Attribute("rpy");
+    const auto values = parse_numbers(text ? text : "");
+    for (const double angle : values ? *values : std::vector<double>()) {
+      if (!(std::abs(angle) > turn)) continue;
+      return warn(element, owner + ": <origin> rpy=\"" + text + "\": " + print_number(angle) +
+                               " rad is more than a full turn; are these degrees?");
+    }
+  }
+
+  void limits(const XMLElement& element, const std::string& owner) {
+    const XMLElement* joint = element.Parent()->ToElement();
+    const char* type = joint ? joint->Attribute("type") : nullptr;
+    if (!type || type != std::string("revolute")) return;
+    const double lower = number(element, "lower"), upper = number(element, "upper");
+    const double largest = std::max(std::abs(lower), std::abs(upper));
+    if (largest > turn && largest <= degrees_of_turn)
+      warn(element, owner + ": limits of " + print_number(lower) + " to " + print_number(upper) +
+                        " rad are more than a full turn; are these degrees?");
+  }
+
+  void friction(const XMLElement& element) {
+    if (number(element, "friction") > stickiest)
+      warn(element, tag(element) + "friction=\"" + element.Attribute("friction") +
+                        "\" is more than any tyre has, some 0.8; is this per cent?");
+  }
+
+  const Source& source_;
+  Robot& robot_;
+};
+
+}  // namespace
+
+void warn_of_doubts(const Source& source, const XMLElement& root, Robot& robot) {
+  Doubts doubts(source, robot);
+  for (const auto* each = root.FirstChildElement(); each; each = each->NextSiblingElement()) {
+    const std::string kind = each->Name();
+    const char* name = each->Attribute("name");
+    if (kind == "transmission") doubts.transmission(*each);
+    if (kind == "link" || kind == "joint" || kind == "sensor" || kind == "muster")
+      doubts.look(*each, kind + (name ? " '" + std::string(name) + "'" : ""));
+  }
+}
+
+}  // namespace muster::description

@@ -1,0 +1,50 @@
+#include "text/doubts.hpp"
+
+#include <gtest/gtest.h>
+
+namespace muster {
+namespace {
+
+TEST(Doubts, AnglesBeyondATurnLookLikeDegrees) {
+  EXPECT_EQ(angle_doubt(90), "90 rad is more than a full turn; are these degrees?");
+  EXPECT_EQ(angle_doubt(-180), "-180 rad is more than a full turn; are these degrees?");
+  EXPECT_EQ(angle_doubt(6.28), "");
+  EXPECT_EQ(unit_doubt("heading", "rad", 45), "45 rad is more than a full turn; are these degrees?");
+  EXPECT_EQ(unit_doubt("w", "rad/s", 90), "90 rad/s is 14.32 turns a second; are these degrees?");
+  EXPECT_EQ(unit_doubt("w", "rad/s", -10), "");
+  EXPECT_EQ(unit_doubt("gyro_range", "rad/s", 1e6), "");
+}
+
+TEST(Doubts, PowersLookLikeMilliwattsAndLevelsLikeThoseWithoutTheirSign) {
+  EXPECT_EQ(unit_doubt("tx_power", "dBm", 100), "100 dBm is 1e+07 W; is this milliwatts? 100 mW are 20 dBm");
+  EXPECT_EQ(unit_doubt("tx_power", "dBm", 20), "");
+  EXPECT_EQ(unit_doubt("sensitivity", "dBm", 45), "45 dBm: nothing so strong arrives; is a minus missing?");
+  EXPECT_EQ(unit_doubt("sensitivity", "dBm", -95), "");
+  EXPECT_EQ(unit_doubt("level", "dBm", 45), "");
+}
+
+TEST(Doubts, LengthsLookLikeCentimetres) {
+  EXPECT_EQ(unit_doubt("thickness", "m", 12), "12 m; is this centimetres?");
+  EXPECT_EQ(unit_doubt("thickness", "m", 0.12), "");
+  EXPECT_EQ(unit_doubt("antenna", "m", 30), "30 m; is this centimetres?");
+  EXPECT_EQ(unit_doubt("range", "m", 30), "");
+}
+
+TEST(Doubts, HintsOfAnotherUnitNameWhatWouldBeWithinTheBounds) {
+  EXPECT_EQ(unit_hint("Hz", 2.4, 1e6, 1e12), "; 2.4 GHz are 2.4e9 Hz");
+  EXPECT_EQ(unit_hint("Hz", 1e15, 1e6, 1e12), "");
+  EXPECT_EQ(unit_hint("dBm", 95, -250, 50), "; is a minus missing?");
+  EXPECT_EQ(unit_hint("m/s", 200, 0, 10), "; is this in cm/s?");
+  EXPECT_EQ(unit_hint("rad", 65, 0.1, 3.1), "; 65 degrees are 1.134 rad");
+  EXPECT_EQ(unit_hint("dB", 200, 0, 100), "");
+}
+
+TEST(Doubts, PowersInWattsAreTakenToDecibels) {
+  EXPECT_EQ(power_hint("dBm", "100mW"), "; 100mW are 20 dBm");
+  EXPECT_EQ(power_hint("dBm", "2 W"), "; 2 W are 33.01 dBm");
+  EXPECT_EQ(power_hint("dBm", "W"), "");
+  EXPECT_EQ(power_hint("m", "100mW"), "");
+}
+
+}  // namespace
+}  // namespace muster

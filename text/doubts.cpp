@@ -1,0 +1,81 @@
+#include "text/doubts.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "text/number.hpp"
+
+namespace muster {
+namespace {
+
+constexpr double turn = 6.283185307179586;   // rad
+constexpr double fastest = 6 * turn;         // rad/s; robots and their wheels turn more slowly
+constexpr double strongest = 60;             // dBm, a kilowatt; radios of robots send some 20 dBm
+constexpr double thickest = 2, longest = 3;  // m, of a wall and from a robot to its antenna
+constexpr double degree = turn / 360;        // rad
+constexpr double centimetre = 0.01;          // m
+
+bool is_within(double value, double least, double most) { return value >= least && value <= most; }
+
+// In four digits.
+std::string about(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4).ptr};
+}
+
+std::string in_dbm(double milliwatts) { return about(10 * std::log10(milliwatts)) + " dBm"; }
+
+}  // namespace
+
+std::string angle_doubt(double radians) {
+  if (!(std::abs(radians) > turn)) return "";
+  return print_real(radians) + " rad is more than a full turn; are these degrees?";
+}
+
+std::string unit_doubt(std::string_view name, std::string_view unit, double value) {
+  if (unit == "rad") return angle_doubt(value);
+  if (unit == "rad/s" && std::abs(value) > fastest && name.find("range") == name.npos)
+    return print_real(value) + " rad/s is " + about(std::abs(value) / turn) + " turns a second; are these degrees?";
+  if (unit == "dBm" && name.find("power") != name.npos && value > strongest)
+    return print_real(value) + " dBm is " + about(std::pow(10, value / 10 - 3)) + " W; is this milliwatts? " +
+           print_real(value) + " mW are " + in_dbm(value);
+  if (unit == "dBm" && name == "sensitivity" && value > 0)
+    return print_real(value) + " dBm: nothing so strong arrives; is a minus missing?";
+  if (unit == "m" && ((name == "thickness" && value > thickest) || (name == "antenna" && std::abs(value) > longest)))
+    return print_real(value) + " m; is this centimetres?";
+  return "";
+}
+
+std::string unit_hint(std::string_view unit, double value, double least, double most) {
+  if (unit == "Hz" && value > 0) {
+    for (const auto& [factor, prefix] : {std::pair(9, "G"), std::pair(6, "M"), std::pair(3, "k")}) {
+      if (value < least && is_within(value * std::pow(10, factor), least, most))
+        return "; " + print_real(value) + " " + prefix + "Hz are " + print_real(value) + "e" + std::to_string(factor) +
+               " Hz";
+    }
+  }
+  if (unit == "dBm" && value > most && is_within(-value, least, most)) return "; is a minus missing?";
+  if (unit == "m/s" && value > most && is_within(value * centimetre, least, most)) return "; is this in cm/s?";
+  if (unit == "rad" && std::abs(value) <= 360 && is_within(value * degree, least, most))
+    return "; " + print_real(value) + " degrees are " + about(value * degree) + " rad";
+  return "";
+}
+
+std::string power_hint(std::string_view unit, std::string_view text) {
+  if (unit != "dBm") return "";
+  double factor = 0;
+  std::string_view number;
+  for (const auto& [end, milliwatts] : {std::pair<std::string_view, double>("mW", 1), {"W", 1000}}) {
+    if (factor > 0 || text.size() <= end.size() || text.substr(text.size() - end.size()) != end) continue;
+    number = text.substr(0, text.size() - end.size());
+    while (!number.empty() && number.back() == ' ') number.remove_suffix(1);
+    factor = milliwatts;
+  }
+  const auto value = parse_real(number);
+  if (!value || !(*value > 0)) return "";
+  return "; " + std::string(text) + " are " + in_dbm(*value * factor);
+}
+
+}  // namespace muster
