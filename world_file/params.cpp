@@ -69,6 +69,19 @@ const XmlAttribute& needed(const XmlElement& element, const char* name, const ch
   throw lacking(element, name, expected);
 }
 
+uint64_t positive_integer(const XmlAttribute& given) {
+  const auto value = parse_integer(given.value);
+  if (!value || *value < 1) {
+    throw invalid(
+        given.value_place,
+        "attribute " + quote(given.name) + ": " +
+            (value ? given.value + " is out of bounds" : why_not_integer(given.value)) +
+            "; expected an integer from 1" +
+            (parse_real(given.value) && !value && given.name == "every" ? ": it counts ticks of the world's dt" : ""));
+  }
+  return static_cast<uint64_t>(*value);
+}
+
 double real_of(const XmlAttribute& given, double least, const char* expected) {
   const auto value = parse_real(given.value);
   if (!value)

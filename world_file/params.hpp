@@ -32,6 +32,8 @@ void check_name(const XmlAttribute& given);
 
 // An attribute that the element must have. Throws Error.
 const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected);
+// An integer from 1. Throws Error.
+uint64_t positive_integer(const XmlAttribute& given);
 // Its number, at least `least`. Throws Error.
 double real_of(const XmlAttribute& given, double least, const char* expected);
 

@@ -1,12 +1,8 @@
 #include "world.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "occasions.hpp"
 #include "params.hpp"
-#include "rows.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -14,130 +10,6 @@ namespace muster {
 namespace {
 
 constexpr double most_ticks = 1e12;
-
-uint64_t positive_integer(const XmlAttribute& given) {
-  const auto value = parse_integer(given.value);
-  if (!value || *value < 1) {
-    throw invalid(
-        given.value_place,
-        "attribute " + quote(given.name) + ": " +
-            (value ? given.value + " is out of bounds" : why_not_integer(given.value)) +
-            "; expected an integer from 1" +
-            (parse_real(given.value) && !value && given.name == "every" ? ": it counts ticks of the world's dt" : ""));
-  }
-  return static_cast<uint64_t>(*value);
-}
-
-// Refuses a file of another kind at its first element: what follows in it would give misleading errors.
-void check_root(const std::string& name, const Place& place) {
-  if (name == "world") return;
-  static const std::map<std::string, std::string> others = {
-      {"sdf", ", as in a file of Gazebo; muster reads no SDF: expected <world>, with walls, stations and robots in it"},
-      {"gazebo", ", as in a file of Gazebo; muster reads no SDF: expected <world>"},
-      {"robot",
-       ", as in a robot's description; expected <world>, with <robot model=\"FILE.urdf\" at=\"0 0 0\"/> in it"},
-      {"launch", ", as in a launch file of ROS; expected <world>"},
-      {"mujoco", ", as in a model of MuJoCo; expected <world>"}};
-  const auto other = others.find(name);
-  throw invalid(place,
-                "the root element is <" + name + ">" + (other == others.end() ? "; expected <world>" : other->second));
-}
-
-void read_root(const XmlElement& root, World& world) {
-  static const std::vector<std::string> valid = {"name", "dt", "until", "seed"};
-  world.name = std::filesystem::absolute(world.file).lexically_normal().parent_path().filename().string();
-  const XmlAttribute* until = nullptr;
-  for (const auto& given : root.attributes) {
-    if (given.name == "name")
-      world.name = given.value;
-    else if (given.name == "dt")
-      world.dt = real_of(given, 1e-9, "the tick in seconds, from 1e-09");
-    else if (given.name == "until")
-      until = &given;
-    else if (given.name == "seed") {
-      const auto seed = parse_integer(given.value);
-      if (!seed || *seed < 0)
-        throw invalid(given.value_place, "attribute \"seed\": " +
-                                             (seed ? given.value + " is out of bounds" : why_not_integer(given.value)) +
-                                             "; expected an integer from 0");
-      world.seed = static_cast<uint64_t>(*seed);
-    } else {
-      refuse_unknown(given, "world", valid);
-    }
-  }
-  if (!until) throw lacking(root, "until", "the end of the run in seconds, from 0");
-  world.ticks = ticks_of(real_of(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
-}
-
-RecordDeclaration read_record(const XmlElement& element) {
-  RecordDeclaration result{
-      needed(element, "table", "a table's name: set/row/quantity, or set/*/quantity for all rows").value, 1,
-      element.place};
-  for (const auto& given : element.attributes) {
-    if (given.name == "every")
-      result.every = positive_integer(given);
-    else if (given.name != "table")
-      refuse_unknown(given, "record", {"table", "every"});
-  }
-  return result;
-}
-
-void warn_of_long_wait(const XmlElement& element, const std::string& outcome, World& world) {
-  const XmlAttribute* every = element.attribute("every");
-  if (!every || world.ticks == 0 || positive_integer(*every) <= world.ticks) return;
-  world.warnings.push_back({every->value_place, "attribute \"every\": " + every->value +
-                                                    " ticks are more than the run's " + std::to_string(world.ticks) +
-                                                    ", so that <" + element.name + "> " + outcome});
-}
-
-// What to do without an element of SDF that has no like here.
-std::string foreign_element(const std::string& name) {
-  if (name == "plugin") return "; a plugin is an element of its own name, such as <physics.simbody/>";
-  if (name == "include") return "; a world is one file";
-  if (name == "light" || name == "scene" || name == "gui") return "; leave it out";
-  if (name == "physics" || name == "gravity") return "; the physics is a plugin, such as <physics.simbody/>";
-  return "";
-}
-
-// An element with a dot in its name is a plugin; any other must be known.
-void read_child(const XmlElement& element, const Standard& standard, World& world) {
-  if (element.name == "at") {
-    read_at(element, standard, world);
-  } else if (element.name == "swap") {
-    read_swap_element(element, world);
-  } else if (element.name == "record") {
-    world.records.push_back(read_record(element));
-    warn_of_long_wait(element, "is written at its start alone", world);
-  } else if (element.name.find('.') != std::string::npos) {
-    world.instances.push_back(read_instance(element, element.name));
-    warn_of_long_wait(element, "does not step after its start", world);
-  } else {
-    std::vector<std::string> valid = {"at", "swap", "record"};
-    for (const auto& known : standard.elements) {
-      if (element.name == known.name) return;  // read_rows() has read it
-      valid.push_back(known.name);
-    }
-    const XmlAttribute* type = element.attribute("type");  // as other simulators name their parts
-    throw invalid(element.place, "<" + element.name +
-                                     "> is no element of a world; expected a plugin (with a dot in its name" +
-                                     (type ? ": <" + element.name + "." + type->value + "/>" : "") + ") or " +
-                                     expected_one_of(valid).substr(9) + did_you_mean(element.name, valid) +
-                                     (type ? "" : foreign_element(element.name)));
-  }
-}
-
-void check_names(World& world) {
-  std::map<std::string, Place> seen;
-  for (const auto& instance : world.instances) {
-    const auto [found, is_new] = seen.emplace(instance.name, instance.place);
-    if (!is_new) {
-      throw invalid(instance.place, "a second instance is called " + quote(instance.name) + "; the first is at " +
-                                        found->second.text() + "; give one of them a name=\"...\" of its own");
-    }
-  }
-  check_occasions(world);
-  warn_of_vain_changes(world);
-}
 
 }  // namespace
 
@@ -175,17 +47,6 @@ uint64_t ticks_of(double time, double dt, const Place& place) {
 void World::stand_still() {
   occasions.clear();
   for (auto& row : rows) row.joins_later = false;
-}
-
-World read_world(const std::filesystem::path& path, const Standard& standard) {
-  World world;
-  world.file = std::filesystem::is_directory(path) ? path / "world.xml" : path;
-  const XmlElement root = read_xml(world.file, check_root);
-  read_root(root, world);
-  read_rows(root, standard, world);
-  for (const auto& child : root.children) read_child(child, standard, world);
-  check_names(world);
-  return world;
 }
 
 }  // namespace muster

@@ -130,7 +130,7 @@ TEST(Restored, WhatTheFileSaysNowAndTheSnapshotDoesNotIsTold) {
     folder.write("world.xml", "<world " + attributes + "><material name=\"m\" loss=\"4\"/>\n<wall name=\"w1\" from=\"" +
                                   wall +
                                   "\" to=\"3 4\" material=\"m\"/><robot name=\"r\" at=\"0 0 0\"/><control.steady "
-                                  "name=\"steer\" robot=\"r\" v=\"0.5\"/><physics.planar through_walls=\"true\"/>"
+                                  "name=\"steer\" robot=\"r\" v=\"0.5\"/><physics.simbody/>"
                                   "<robots.drive/></world>");
   };
   of("1 1");
