@@ -86,10 +86,14 @@ std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
   const auto mounts = rows_of<Mount>(run, "radio/*/mount");
   const auto endpoints = rows_of<Endpoint>(run, "endpoint/*/radio");
   const auto places = rows_of<Pose>(run, "endpoint/*/pose");
-  std::vector<std::string> wanted = words.from;
-  for (std::size_t i = 0; words.from.empty() && i < names.size(); ++i)
+  const auto& alive = run.board().find_set("radio")->alive;
+  std::vector<std::string> wanted = words.from, there;
+  for (std::size_t i = 0; words.from.empty() && i < names.size(); ++i) {
+    if (!alive[i]) continue;
+    there.push_back(names[i]);
     if (std::isnan(mounts[i].robot)) wanted.push_back(names[i]);
-  if (wanted.empty()) wanted = names;
+  }
+  if (wanted.empty()) wanted = there;
   if (wanted.empty()) throw Error(Exit::invalid_input, run.world().file.string() + ": the world has no radio");
   std::vector<Sender> senders;
   for (const std::string& name : wanted) {

@@ -278,23 +278,35 @@ void Simulation::rehearse() {
   for (const auto& row : world_.rows) {
     if (row.joins_later) gone.insert(row.name);
   }
-  for (const Occasion* occasion : all) {
-    if (!occasion->when) warn_of_idle(*occasion, gone);
-    for (const auto& planned : occasion->plugins) at_place(planned.place, [&] { rehearse(planned, there, made); });
-    if (!occasion->plugins.empty())
-      at_place(occasion->plugins.back().place, [&] {
+  for (std::size_t from = 0, to; from < all.size(); from = to) {
+    to = from + 1;  // of one time they happen together
+    while (to < all.size() && !all[from]->when && !all[to]->when && all[to]->tick == all[from]->tick) ++to;
+    const PluginChange* last = nullptr;
+    for (std::size_t i = from; i < to; ++i) {
+      for (const auto& planned : all[i]->plugins) {
+        at_place(planned.place, [&] { rehearse(planned, there, made); });
+        last = &planned;
+      }
+    }
+    if (last)
+      at_place(last->place, [&] {
         Linker linker(there, standard_, world_, board_);
         linker.promise(promised_);
         linker.check();
       });
-    for (const auto& planned : occasion->rows) at_place(planned.place, [&] { rehearse(planned, there); });
-    if (occasion->when && !promised_.count(table_of(*occasion->when).logical()))
-      at_place(occasion->when->place, [&] { looked_at(*occasion->when); });
-    if (!occasion->when && occasion->tick >= world_.ticks)
-      note("warning: " + occasion->place.text() + ": " + occasion->title + " comes at the end of the run or after it");
+    for (std::size_t i = from; i < to; ++i) rehearse(*all[i], there, gone);
   }
   made.clear();
   board_.back_to(mark);
+}
+
+void Simulation::rehearse(const Occasion& occasion, const std::vector<Instance*>& there, std::set<std::string>& gone) {
+  if (!occasion.when) warn_of_idle(occasion, gone);
+  for (const auto& planned : occasion.rows) at_place(planned.place, [&] { rehearse(planned, there); });
+  if (occasion.when && !promised_.count(table_of(*occasion.when).logical()))
+    at_place(occasion.when->place, [&] { looked_at(*occasion.when); });
+  if (!occasion.when && occasion.tick >= world_.ticks)
+    note("warning: " + occasion.place.text() + ": " + occasion.title + " comes at the end of the run or after it");
 }
 
 // A robot that leaves before it joins, or twice.

@@ -141,6 +141,7 @@ class Simulation {
   bool holds_now(const Occasion& occasion) const;
   void look_at_conditions();
   void rehearse();
+  void rehearse(const Occasion& occasion, const std::vector<Instance*>& there, std::set<std::string>& gone);
   void warn_of_idle(const Occasion& occasion, std::set<std::string>& gone);
   void rehearse(const PluginChange& planned, std::vector<Instance*>& there,
                 std::vector<std::unique_ptr<Instance>>& made);

@@ -134,6 +134,14 @@ TEST_F(Planned, APluginComesAndGoes) {
   EXPECT_THAT(messages(sim), ElementsAre("2 second: inserted toy.copy_physics/1", "4 second: removed"));
 }
 
+// Two write one row for as long as the first is not removed: of one time both happen together.
+TEST_F(Planned, OfOneTimeAllPluginsChangeTogether) {
+  Simulation sim = run(two_robots + that_moves("a", "first") + "\n<at t='1'>" + that_moves("a", "second") +
+                       "</at>\n<at t='1'><remove instance='first'/></at>\n");
+  step(sim, 6);
+  EXPECT_EQ(x_of(sim), 1 + 6);
+}
+
 TEST_F(Planned, AConditionCountsWhereItBeginsToHold) {
   Simulation sim =
       run(two_robots + adder + "<at when='robot/a/pose/x above 2'><set path='mover/add' value='-1'/></at>\n" +

@@ -71,9 +71,9 @@ async function check_slow_client() {
   await Promise.all([slow.ready, fast.ready]);
   await until(() => slow.by_topic.get('/link/rssi').length === 1 && fast.by_topic.get('/link/rssi').length === 1, 'both have the first tick');
   const kilobytes = () => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${run.process.pid}/status`, 'utf8'))[1]);
+  slow.socket._socket.pause();  // before the run goes on: it may be at its end before a word of ours is heard
   await control(run.address, 'paused=false');
   await until(async () => await tick_of(run.address) > 20, 'the run goes on');
-  slow.socket._socket.pause();
   const before = kilobytes();
   await until(async () => await tick_of(run.address) >= 580, 'a client that does not read holds up the run');
   await control(run.address, 'paused=true');

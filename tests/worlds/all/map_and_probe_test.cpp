@@ -143,6 +143,18 @@ TEST(RssiMap, WhatIsNotReceivedIsEmpty) {
     EXPECT_EQ(std::isnan(rssi[i]), level(x[i], (x[i] > 2 ? 6 : 0) + (x[i] > 4 ? 3 : 0)) < -70) << x[i];
 }
 
+// A station that joins later sends nothing before.
+TEST(RssiMap, IsOfTheStationsThatAreThere) {
+  const ProgramFolder folder;
+  folder.write("world.xml", "<world name=\"w\" dt=\"0.1\" until=\"5\">" + walls + radios +
+                                "<at t=\"3\"><station name=\"late\" at=\"1 1 1\"/></at></world>");
+  for (const auto& [at, number] : {std::pair("0", 3u), std::pair("4", 4u)}) {
+    const Outcome outcome = folder.muster({"map", "world.xml", "--at", at, "--cells", "8", "--out", "map", "--json"});
+    ASSERT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_EQ(json::parse(outcome.out)["radios"].size(), number) << at;
+  }
+}
+
 TEST(RssiMap, RefusesWhatIsNoRadioAndNoArea) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(walls + radios));
