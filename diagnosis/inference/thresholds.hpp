@@ -216,7 +216,8 @@ inline constexpr Eigen::Index compared_draws = 6;
 inline constexpr std::size_t bulk_atoms = 200;
 // atoms; fewest that are a bulk; chosen; none
 inline constexpr Eigen::Index fewest_bulk_atoms = 20;
-// count; fewest of them that are independent of each other; measured: four radios have 1 to 4; BulkInflation.IsNotOfAFewThatHaveEffects
+// atoms; fewest of them that are independent of each other: those of four groups are 1 to 4; measured;
+// BulkInflation.IsNotOfAFewThatHaveEffects
 inline constexpr double fewest_independent_atoms = 6;
 // draws; of white noise, all of whose medians an inflated one exceeds; chosen; BulkInflation.IsOneInWhiteNoise
 inline constexpr Eigen::Index bulk_nulls = 40;

@@ -65,7 +65,7 @@ double bulk_inflation(const ModelState& state, const WhitenedModel& model, const
     all.bottomRows(more.rows()) = more;
   }
   if (all.rows() < thresholds::fewest_bulk_atoms) return 1;
-  // Of four radios all have effects where two have: what looks like many candidates are three or four.
+  // Of four groups nearly all gain where two have effects: what looks like many candidates are three or four.
   if (independent_gains(all.rightCols(thresholds::bulk_nulls)) < thresholds::fewest_independent_atoms) return 1;
   std::vector<float> nulls;
   for (Index k = 1; k < all.cols(); ++k) nulls.push_back(median(all.col(k)));

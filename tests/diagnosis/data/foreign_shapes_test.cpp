@@ -145,8 +145,8 @@ TEST(ForeignShapes, DatesAndClockTimes) {
   EXPECT_EQ(times("time stamp since 2024-05-03T12:00:00Z"), "2096.5 9298");
   EXPECT_EQ(
       times("stamp"),
-      "log.csv:2: column \"stamp\": \"2024-05-03T12:34:56.5Z\" is not a number; \"-05-03T12:34:56.5Z\" follows the "
-      "number; where these are dates or clock times, expected t[s] = time stamp");
+      "log.csv:2: column \"stamp\": \"2024-05-03T12:34:56.5Z\" is not a number, but a date; expected seconds (muster "
+      "import reads dates); where these are dates or clock times, expected t[s] = time stamp");
   EXPECT_EQ(import.with("t[ms] = time stamp\n" + rest),
             "m.map:1: \"t[ms]\" is made of times, in seconds; expected \"t[s]\"");
 }
