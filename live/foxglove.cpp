@@ -238,8 +238,7 @@ void Foxglove::take_text(Client& client, std::string_view message) {
     if (name == asked)
       return status(client, Level::error, name + ": this server has not the capability \"" + capability + '"');
   }
-  status(client, Level::error,
-         "unknown op " + quote(asked) + "; " + suggest(asked, valid));
+  status(client, Level::error, "unknown op " + quote(asked) + "; " + suggest(asked, valid));
 }
 
 void Foxglove::subscribe(Client& client, const Request& request) {

@@ -75,7 +75,8 @@ TEST_F(LibraryTest, SaysWhereItLookedAndWhatIsNear) {
     return error_of([&] { Library::load(id, std::nullopt, path, {"world.xml", 5, 3}); });
   };
   EXPECT_EQ(message("zoo.god", {folder, zoo}), "world.xml:5:3: plugin \"zoo.god\": zoo_god.so not found; looked in " +
-                                                   folder.string() + ", " + zoo.string() + "; did you mean \"zoo.good\"?");
+                                                   folder.string() + ", " + zoo.string() +
+                                                   "; did you mean \"zoo.good\"?");
   EXPECT_EQ(message("radio.multiwall", {folder, "/nowhere"}),
             "world.xml:5:3: plugin \"radio.multiwall\": radio_multiwall.so not found; looked in " + folder.string() +
                 ", /nowhere");
