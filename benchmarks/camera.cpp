@@ -83,7 +83,7 @@ class Peer {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    const float focal = static_cast<float>(width / 2 / std::tan(angle / 2));
+    const float focal = static_cast<float>(width / 2.0 / std::tan(angle / 2));
     const Eigen::Matrix3f axes = from.linear().cast<float>();
     const Eigen::Vector3f eye = from.translation().cast<float>(), way = sun.cast<float>();
     for (int y = 0; y < height; y += 2) {

@@ -78,7 +78,7 @@ inline void append(const description::Cylinder& cylinder, Facets& to) {
 inline void append(const description::Sphere& sphere, Facets& to) {
   std::vector<std::pair<double, double>> rings;
   for (int i = 1; i < round_sides / 2; ++i) {
-    const double angle = whole_turn / 2 * i / (round_sides / 2);
+    const double angle = whole_turn * i / round_sides;
     rings.emplace_back(-sphere.radius * std::cos(angle), sphere.radius * std::sin(angle));
   }
   append_rings(rings, to);

@@ -142,7 +142,7 @@ class View {
     to_map_.row(2) = light_.sun;
     texel_ = 1 / pixels;
     map_.clear(-1e9f);
-    eye_in_map_ = to_map_ * (eye_ - middle_) + map_middle();
+    eye_in_map_ = to_map_ * (eye_ - middle_) + map_middle() + Eigen::Vector3d(0.5, 0.5, 0);  // to be cut, not rounded
     const Eigen::Matrix3d turned = to_map_ * to_world_;
     ray_dx_ = turned.col(0) / focal_, ray_dy_ = turned.col(1) / focal_;
     ray_at_ = turned.col(2) - ray_dx_ * ((width() - 1) / 2.0) - ray_dy_ * ((height() - 1) / 2.0);
@@ -151,8 +151,8 @@ class View {
 
   bool is_in_shadow(int x, int y, double depth, const Drawn& drawn) const {
     const Eigen::Vector3d in_map = eye_in_map_ + depth * (ray_at_ + ray_dx_ * x + ray_dy_ * y);
-    if (!(in_map.x() >= 0 && in_map.y() >= 0 && in_map.x() < map_size - 1 && in_map.y() < map_size - 1)) return false;
-    const int u = static_cast<int>(in_map.x() + 0.5), v = static_cast<int>(in_map.y() + 0.5);
+    if (!(in_map.x() >= 0 && in_map.y() >= 0 && in_map.x() < map_size && in_map.y() < map_size)) return false;
+    const int u = static_cast<int>(in_map.x()), v = static_cast<int>(in_map.y());
     const std::uint32_t caster = map_.what(u, v);
     if (caster == Raster::nothing || caster == drawn.face) return false;
     return map_.near(u, v) > in_map.z() + texel_ * (1 + drawn.slope);
