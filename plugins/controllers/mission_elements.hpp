@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plugins/world_folder.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/xml.hpp"
@@ -55,11 +56,9 @@ inline std::string text(const XmlElement& element, const char* name) {
 inline XmlElement read_file(const Setup& setup, const char* parameter) {
   const std::string given = setup.text(parameter);
   if (given.empty()) throw BadInput(std::string("has no attribute \"") + parameter + "\"; expected an XML file");
-  std::string folder;
-  for (uint32_t i = 0; const char* next = setup.host()->search_path(setup.host(), i); ++i) folder = next;
   const std::filesystem::path path(given);
   try {
-    return read_xml(path.is_absolute() ? path : std::filesystem::path(folder) / path);
+    return read_xml(path.is_absolute() ? path : std::filesystem::path(world_folder(setup.host())) / path);
   } catch (const Error& e) {
     throw BadInput(e.what());
   }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "mesh_scene.hpp"
+#include "plugins/world_folder.hpp"
 
 namespace muster {
 
@@ -23,8 +24,7 @@ class WorldMeshes {
   // For constructors: the kernel gives files during setup only. Throws BadInput with the faulty mesh.
   explicit WorldMeshes(const Setup& setup) {
     const muster_host* host = setup.host();
-    std::string folder;  // the world's own is the last
-    for (uint32_t i = 0; const char* directory = host->search_path(host, i); ++i) folder = directory;
+    const std::string folder = world_folder(host);
     for (uint32_t row = 0; row < host->rows(host, "mesh"); ++row) {
       names_.push_back(host->row_name(host, "mesh", row));
       const std::string file = setup.text("mesh/" + names_.back() + "/file");

@@ -9,10 +9,12 @@
 #include <muster/senses.hpp>
 #include <optional>
 
+#include "body_frame.hpp"
 #include "description/mesh.hpp"
 #include "description/world_robots.hpp"
 #include "plugins/periods.hpp"
 #include "plugins/scene_rows.hpp"
+#include "plugins/world_folder.hpp"
 #include "robot_solids.hpp"
 #include "scene/slabs.hpp"
 #include "view.hpp"
@@ -23,10 +25,6 @@ using namespace muster;
 using description::WorldRobots;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d frame_of(const Pose& p) {
-  return Eigen::Translation3d(p.x, p.y, p.z) * Eigen::Quaterniond(p.qw, p.qx, p.qy, p.qz);
-}
 
 struct SensorsCamera {
   static constexpr auto id = "sensors.camera/1";
@@ -214,8 +212,7 @@ Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 M
 
   void read_meshes(const Setup& setup) {
     const muster_host* host = setup.host();
-    std::string folder;  // the world's own is the last
-    for (uint32_t i = 0; const char* directory = host->search_path(host, i); ++i) folder = directory;
+    const std::string folder = world_folder(host);
     for (uint32_t row = 0; row < host->rows(host, "mesh"); ++row) {
       const std::string name = host->row_name(host, "mesh", row), file = setup.text("mesh/" + name + "/file");
       description::Shape shape;

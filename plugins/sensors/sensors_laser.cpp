@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "body_frame.hpp"
 #include "description/world_robots.hpp"
 #include "fan.hpp"
 #include "plugins/periods.hpp"
@@ -23,10 +24,6 @@ using Eigen::Isometry3d;
 std::string seconds_text(double seconds) {
   char digits[32];
   return std::string(digits, std::to_chars(digits, digits + sizeof digits, seconds).ptr) + " s";
-}
-
-Isometry3d frame_of(const Pose& p) {
-  return Eigen::Translation3d(p.x, p.y, p.z) * Eigen::Quaterniond(p.qw, p.qx, p.qy, p.qz);
 }
 
 struct SensorsLaser {
