@@ -66,6 +66,16 @@ TEST(SensorLog, HasScansAndPicturesAsTheirMessages) {
   for (std::uint32_t i = 0; i < rays; ++i) ranges.push_back(scan.number<float>());
   EXPECT_EQ(scan.count(), 0u);
   EXPECT_NEAR(ranges[rays / 2], 1.95, 0.1);  // from where the laser is on the robot
+  run_log::CdrReader mounted(kept.by_topic["/tf_static"].front());
+  EXPECT_EQ(mounted.count(), 1u);
+  mounted.number<std::int32_t>(), mounted.number<std::uint32_t>();
+  EXPECT_EQ(mounted.text(), "r");
+  EXPECT_EQ(mounted.text(), "r/laser0");
+  const Scan of_table = *reinterpret_cast<const Scan*>(run.table("scan/*/message").table->now().data.data());
+  for (const double wanted :
+       {of_table.at_x, of_table.at_y, of_table.at_z, of_table.qx, of_table.qy, of_table.qz, of_table.qw})
+    EXPECT_EQ(mounted.real(), wanted);
+  EXPECT_EQ(of_table.qw, 1);
   run_log::CdrReader depth(kept.by_topic["/r/camera0/depth"].back());
   depth.number<std::int32_t>(), depth.number<std::uint32_t>();
   EXPECT_EQ(depth.text(), "r/camera0");

@@ -77,6 +77,7 @@ TEST_F(Camera, OtherRobotsAreSeenWhileTheyAreThereAndNeverItsOwn) {
   EXPECT_NEAR(after(4, low, others).at(160, 119), 1.9, 0.05);  // a Scarab is 0.2 m long
   EXPECT_NEAR(after(14, low, others).at(160, 119), 4.95, 1e-6);
   EXPECT_NEAR(after(24, low, others).at(160, 119), 3 - 0.0675, 0.05);  // and 0.135 m wide
+  EXPECT_NEAR(after(4, "x='-0.5' z='0.1'").at(160, 119), 5.45, 1e-6);  // through the body that carries it
 }
 
 TEST_F(Camera, ACopyOfARobotIsSeenAsThatOne) {
