@@ -87,10 +87,12 @@ class Compiler {
     }
     Instruction& made = add(Act::go_to, element);
     made.x = (*place)[0], made.y = (*place)[1], made.z = place->size() > 2 ? (*place)[2] : null();
-    const XmlAttribute* heading = element.attribute("heading");
-    made.heading = heading ? number(*heading, -1000, 1000) : null();
-    if (const std::string doubt = heading ? angle_doubt(made.heading) : ""; !doubt.empty())
-      program_.doubts.push_back(heading->value_place.text() + ": attribute \"heading\": " + doubt);
+    made.heading = null();
+    if (const XmlAttribute* heading = element.attribute("heading")) {
+      made.heading = number(*heading, -1000, 1000);
+      if (const std::string doubt = angle_doubt(made.heading); !doubt.empty())
+        program_.doubts.push_back(heading->value_place.text() + ": attribute \"heading\": " + doubt);
+    }
     made.number = number(element, "within", 0.1, 1e-3, far);
     made.patience = number(element, "patience", 0, 1e-3, long_time);
   }

@@ -207,7 +207,8 @@ Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 M
   char told_colour(const Step& k, const Stream& draws, std::size_t part, float colour) const {
     double value = colour;
     if (!k.expected() && k[noise] > 0) value += k[noise] * draws.of(1).normal(k.tick(), part);
-    return static_cast<char>(static_cast<unsigned char>(std::clamp(value, 0.0, 1.0) * 255 + 0.5));
+    constexpr double to_nearest = 0.5;  // lround() is a call, for every pixel
+    return static_cast<char>(static_cast<unsigned char>(std::clamp(value, 0.0, 1.0) * 255 + to_nearest));
   }
 
   void read_meshes(const Setup& setup) {

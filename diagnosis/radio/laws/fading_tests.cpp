@@ -68,7 +68,7 @@ class Tests {
       for (const double strength : family.strengths) {
         const auto law = family.with(base, strength);
         if (!law) continue;
-        const double ratio = std::log(variance_of(*law, judge_.step()) / variance_of(null_law_, judge_.step()));
+        const double ratio = judge_.log_variance_of(*law) - judge_.log_variance_of(null_law_);
         Peak there = null_;
         there.place += LawLikelihood::places * static_cast<int>(std::lround(1e3 * ratio / LawLikelihood::places));
         there.value = judge_.about(*law, there) - cost_of(*law);
@@ -93,6 +93,8 @@ class Tests {
       for (const Peak& peak : judge_.shapes(best.law, fit_)) likelier(peak);
       likelier(judge_.closer_distance(best.law, best.peak));
       best = narrowed(family, best, 0.3);
+      const Fitted here = best;
+      for (const ReadingDistribution& base : bases_) try_one(family, best, here.strength, base, here.peak);
       if (best.peak.value < before + no_more) break;
     }
     for (const ReadingDistribution& law : bases_) take_for_null(law, judge_.best_distance(law, best.peak));
@@ -132,8 +134,11 @@ class Tests {
   LawValue value(const LawFamily& family, const Fitted& best) {
     const double fall = thresholds::interval_nats * wider(*family.part.law);
     const auto value = [&](double x) {
-      const auto law = family.with(best.base, x);
-      return law ? judge_.best(*law, best.peak).value - cost_of(*law) : -1e300;
+      Fitted there{{}, best.base, best.law, x};
+      for (const ReadingDistribution& base : bases_) {
+        if (base.draws == best.base.draws) try_one(family, there, x, base, best.peak);
+      }
+      return there.peak.value;
     };
     const double least = best.peak.value - fall;
     const double a = family.reported(crossing(value, best.strength, best.strength / 3, least));
@@ -149,16 +154,19 @@ class Tests {
     if (peak.value > null_.value) null_ = peak, null_law_ = law;
   }
 
-  // Another null: the stated law with normal noise, of the size that differences of adjacent readings say and near it.
+  // Another null: the stated law with normal noise, of the size that differences of adjacent readings say and near it;
+  // without such readings of the size that was fitted to rows.
   void add_noise() {
-    const double close = judge_.field().close_readings().variance - judge_.step() * judge_.step() / 12;
+    const CloseReadings told = judge_.field().close_readings();
+    const double close = std::isfinite(told.standard_error) ? told.variance - judge_.step() * judge_.step() / 12
+                                                            : fit_.reading_variance();
     if (!(close > thresholds::steady_variance)) return;
     ReadingDistribution noisy = stated_;
     noisy.noise = std::sqrt(close);
     std::vector<Peak> starts = judge_.shapes(noisy, fit_);
     Peak best;
     ReadingDistribution likeliest = noisy;
-    for (const double factor : {0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5}) {
+    for (const double factor : {0.35, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2}) {
       noisy.noise = std::sqrt(factor * close);
       for (const Peak& start : starts) {
         const Peak peak = judge_.best(noisy, start);
@@ -167,7 +175,10 @@ class Tests {
     }
     take_for_null(likeliest, best);
     if (null_law_.noise == 0) return;
-    bases_.push_back(likeliest);
+    for (const double less : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {  // what is added takes a part of the noise
+      bases_.push_back(likeliest);
+      bases_.back().noise *= less;
+    }
     starts_ = std::move(starts);
     for (Peak& start : starts_) start = judge_.best(likeliest, start);
   }

@@ -14,6 +14,22 @@ constexpr int farthest = 9000;  // a field of one part in 8,000 of the variance,
 
 }  // namespace
 
+double LawLikelihood::log_variance_of(ReadingDistribution law) const {
+  std::vector<LawPart> heavy;
+  for (const LawPart& part : law.added) {
+    if (part.law->is_heavy_tailed(part.params)) heavy.push_back(part);
+  }
+  std::erase_if(law.added, [](const LawPart& part) { return part.law->is_heavy_tailed(part.params); });
+  const double light = variance_of(law, step_);
+  double result = light;
+  for (const LawPart& part : heavy) {
+    double share = 1;
+    for (const Atom& atom : part.law->atoms(part.params)) share -= atom.probability;
+    result += std::min(part.law->variance(part.params, 1), share * field_.far_off() * field_.far_off() * light);
+  }
+  return std::log(result);
+}
+
 ReadingDensities LawLikelihood::densities_of(const ReadingDistribution& law, double log_variance, const Peak& there,
                                              double margin) {
   const ReadingView& view = field_.view(there.shape, there.place);
@@ -31,7 +47,7 @@ double LawLikelihood::at(const ReadingDensities& densities, double log_variance,
 }
 
 Peak LawLikelihood::best(const ReadingDistribution& law, Peak from) {
-  const double log_variance = std::log(variance_of(law, step_));
+  const double log_variance = log_variance_of(law);
   from.place = std::clamp(from.place, -farthest, farthest);
   for (int way = 0;;) {
     // Valid for two steps in either direction.
@@ -101,12 +117,12 @@ std::vector<Peak> LawLikelihood::shapes_by_all(const ReadingDistribution& law, c
 }
 
 double LawLikelihood::value(const ReadingDistribution& law, const Peak& there) {
-  const double log_variance = std::log(variance_of(law, step_));
+  const double log_variance = log_variance_of(law);
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place);
 }
 
 Eigen::VectorXd LawLikelihood::each(const ReadingDistribution& law, const Peak& there) {
-  const double log_variance = std::log(variance_of(law, step_));
+  const double log_variance = log_variance_of(law);
   const ReadingDensities densities = densities_of(law, log_variance, there, 0);
   const ReadingView& view = field_.view(there.shape, there.place);
   const double size = log_variance - view.log_ratio;
@@ -116,7 +132,7 @@ Eigen::VectorXd LawLikelihood::each(const ReadingDistribution& law, const Peak& 
 }
 
 double LawLikelihood::about(const ReadingDistribution& law, const Peak& there) {
-  const double log_variance = std::log(variance_of(law, step_));
+  const double log_variance = log_variance_of(law);
   const Index every = field_.size() / thresholds::rough_readings + 1;
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);
 }

@@ -38,9 +38,12 @@ class LawLikelihood {
   // The same on an even subsample, if there are many readings; scaled to all.
   double about(const ReadingDistribution& law, const Peak& there);
 
+  // Of a reading as predictions use it, dB^2: what adds heavy tails enters them winsorised.
+  double log_variance_of(ReadingDistribution law) const;
+
   KrigedReadings& field() { return field_; }
   double step() const { return step_; }
-  std::vector<noise::Family> families() const { return field_.families(); }
+  const std::vector<noise::Family>& families() const { return field_.families(); }
 
  private:
   std::vector<Peak> shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from);
