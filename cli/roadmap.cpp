@@ -74,6 +74,40 @@ RoadmapWords roadmap_words(const Arguments& arguments) {
   return words;
 }
 
+// Rows of a table as the world file gives them; a run has them only where a plugin reads them.
+template <class Row>
+std::vector<Row> declared_rows(const World& world, const std::string& set, const std::string& quantity) {
+  std::vector<Row> result;
+  for (const RowDeclaration& row : world.rows) {
+    if (row.set != set) continue;
+    Row cells{};
+    for (const StoredValues& given : row.values) {
+      if (given.table != set + '/' + quantity) continue;
+      auto* first = reinterpret_cast<double*>(&cells);
+      given.store ? given.store(given.values.data(), first)
+                  : static_cast<void>(std::copy(given.values.begin(), given.values.end(), first));
+    }
+    result.push_back(cells);
+  }
+  return result;
+}
+
+std::vector<std::string> declared_names(const World& world, const std::string& set) {
+  std::vector<std::string> result;
+  for (const RowDeclaration& row : world.rows)
+    if (row.set == set) result.push_back(row.name);
+  return result;
+}
+
+// The box that a robot of the world fills, by its model.
+Geometry box_of(World world, std::size_t robot, const RoadmapWords& words) {
+  world.stand_still();
+  world.records = {{"robot/*/geometry", 1, {"--robot"}}};  // so that its provider joins
+  Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});
+  run.evaluate(MUSTER_SENSE, true);
+  return rows_of<Geometry>(run, "robot/*/geometry").at(robot);
+}
+
 struct PlannedRobot {
   std::size_t row = 0;
   bool is_of_world = false;  // false: only a radius was given
@@ -82,16 +116,16 @@ struct PlannedRobot {
   rm::Heights heights{0, 0};
 };
 
-PlannedRobot planned_robot(const Simulation& run, const RoadmapWords& words) {
+PlannedRobot planned_robot(const World& world, const RoadmapWords& words) {
   PlannedRobot result;
-  const auto names = names_of(run, "robot");
+  const auto names = declared_names(world, "robot");
   if (words.radius) {
     result.radius = real_of(*words.radius, "--radius");
     result.heights = {0, words.height};
     return result;
   }
   if (!words.robot && names.size() != 1)
-    throw Error(Exit::invalid_input, run.world().file.string() + ": the world has " + std::to_string(names.size()) +
+    throw Error(Exit::invalid_input, world.file.string() + ": the world has " + std::to_string(names.size()) +
                                          " robots; expected --robot NAME or --radius R");
   result.name = words.robot ? *words.robot : names[0];
   const auto found = std::find(names.begin(), names.end(), result.name);
@@ -100,12 +134,12 @@ PlannedRobot planned_robot(const Simulation& run, const RoadmapWords& words) {
                 "--robot: no robot is called " + quote(result.name) + "; " + suggest(result.name, names));
   result.row = static_cast<std::size_t>(found - names.begin());
   result.is_of_world = true;
-  const Geometry box = rows_of<Geometry>(run, "robot/*/geometry").at(result.row);
+  const Geometry box = box_of(world, result.row, words);
   result.radius = std::hypot(std::abs(box.x) + box.length / 2, std::abs(box.y) + box.width / 2);
   if (!(result.radius > 0))
     throw Error(Exit::invalid_input,
                 "--robot: the model of " + quote(result.name) + " has no shapes; expected --radius R instead");
-  const double z = rows_of<Pose>(run, "robot/*/pose").at(result.row).z;
+  const double z = declared_rows<Pose>(world, "robot", "pose").at(result.row).z;
   result.heights = {z + box.z - box.height / 2, z + box.z + box.height / 2};
   return result;
 }
@@ -117,13 +151,13 @@ struct MadeRoadmap {
   std::size_t alone = 0;
 };
 
-MadeRoadmap made_roadmap(const Simulation& run, const PlannedRobot& robot, const RoadmapWords& words) {
+MadeRoadmap made_roadmap(const World& world, const PlannedRobot& robot, const RoadmapWords& words) {
   const auto blocks =
-      rm::blocks_of(rows_of<Wall>(run, "wall/*/shape"), rows_of<Door>(run, "door/*/shape"),
-                    rows_of<DoorState>(run, "door/*/state"),
+      rm::blocks_of(declared_rows<Wall>(world, "wall", "shape"), declared_rows<Door>(world, "door", "shape"),
+                    declared_rows<DoorState>(world, "door", "state"),
                     words.open_doors ? rm::Doors::open : rm::Doors::as_they_stand, robot.heights);
   std::vector<rm::Point> places;
-  for (const Pose& p : rows_of<Pose>(run, "robot/*/pose")) places.push_back({p.x, p.y});
+  for (const Pose& p : declared_rows<Pose>(world, "robot", "pose")) places.push_back({p.x, p.y});
   for (const auto* one : {&words.from, &words.to})
     if (!one->empty()) places.push_back({(*one)[0], (*one)[1]});
   MadeRoadmap made;
@@ -134,7 +168,7 @@ MadeRoadmap made_roadmap(const Simulation& run, const PlannedRobot& robot, const
                                                          : rm::visibility_graph(made.obstacles, made.area),
                                   made.alone);
   } catch (const std::runtime_error& e) {
-    throw Error(Exit::invalid_input, run.world().file.string() + ": " + e.what());
+    throw Error(Exit::invalid_input, world.file.string() + ": " + e.what());
   }
   return made;
 }
@@ -162,11 +196,11 @@ std::vector<RobotsGoal> goals_of(const World& world) {
 }
 
 // What keeps robots from where they are to go.
-std::vector<std::string> roadmap_warnings(const Simulation& run, const PlannedRobot& robot, const MadeRoadmap& made) {
+std::vector<std::string> roadmap_warnings(const World& world, const PlannedRobot& robot, const MadeRoadmap& made) {
   std::vector<std::string> result;
-  const auto names = names_of(run, "robot");
-  const auto poses = rows_of<Pose>(run, "robot/*/pose");
-  const auto goals = goals_of(run.world());
+  const auto names = declared_names(world, "robot");
+  const auto poses = declared_rows<Pose>(world, "robot", "pose");
+  const auto goals = goals_of(world);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (robot.is_of_world && i != robot.row) continue;
     const rm::Point at{poses[i].x, poses[i].y};
@@ -182,7 +216,7 @@ std::vector<std::string> roadmap_warnings(const Simulation& run, const PlannedRo
       from = goal.at;
     }
   }
-  if (!names_of(run, "mesh").empty()) result.push_back("the world's meshes are not in the roadmap, which is made of walls alone");
+  if (!declared_names(world, "mesh").empty()) result.push_back("the world's meshes are not in the roadmap, which is made of walls alone");
   return result;
 }
 
@@ -205,14 +239,14 @@ void write_way(const rm::Route& way, const std::string& file) {
 }
 
 // The way that --to asks for. Throws Error where there is none and a file of it is wanted.
-std::optional<rm::Route> wanted_way(const Simulation& run, const PlannedRobot& robot, const MadeRoadmap& made,
+std::optional<rm::Route> wanted_way(const World& world, const PlannedRobot& robot, const MadeRoadmap& made,
                                     const RoadmapWords& words, std::vector<std::string>& warnings) {
   if (words.to.empty()) return {};
   if (words.from.empty() && !robot.is_of_world)
     throw Error(Exit::invalid_input, "--to needs a start; expected --from X Y, or --robot NAME in place of --radius");
   rm::Point from;
   if (words.from.empty()) {
-    const Pose at = rows_of<Pose>(run, "robot/*/pose").at(robot.row);
+    const Pose at = declared_rows<Pose>(world, "robot", "pose").at(robot.row);
     from = {at.x, at.y};
   } else {
     from = {words.from[0], words.from[1]};
@@ -236,16 +270,11 @@ int run_roadmap(const Arguments& arguments) {
   files.reads_world(words.world);
   files.writes(words.out, "--out");
   files.writes(words.path, "--path");
-  World world = read_world(words.world, standard());
-  world.stand_still();
-  world.records = {};
-  if (!words.radius) world.records.push_back({"robot/*/geometry", 1, {"--robot"}});  // so that its provider joins
-  Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});
-  if (!words.radius) run.evaluate(MUSTER_SENSE, true);
-  const PlannedRobot robot = planned_robot(run, words);
-  const MadeRoadmap made = made_roadmap(run, robot, words);
-  std::vector<std::string> warnings = roadmap_warnings(run, robot, made);
-  const auto way = wanted_way(run, robot, made, words, warnings);
+  const World world = read_world(words.world, standard());
+  const PlannedRobot robot = planned_robot(world, words);
+  const MadeRoadmap made = made_roadmap(world, robot, words);
+  std::vector<std::string> warnings = roadmap_warnings(world, robot, made);
+  const auto way = wanted_way(world, robot, made, words, warnings);
 
   write_roadmap(made, words.out);
   if (way && !words.path.empty()) write_way(*way, words.path);
@@ -253,7 +282,7 @@ int run_roadmap(const Arguments& arguments) {
   const double free = rm::free_area(made.obstacles, made.area);
   const double whole = (made.area.x1 - made.area.x0) * (made.area.y1 - made.area.y0);
   if (words.json) {
-    Json json{{"world", run.world().name},
+    Json json{{"world", world.name},
               {"method", words.method},
               {"radius_m", made.obstacles.radius()},
               {"nodes", made.graph.nodes.size()},
@@ -270,7 +299,7 @@ int run_roadmap(const Arguments& arguments) {
     return fmt::print("{}\n", json.dump(2)), 0;
   }
   for (const std::string& one : warnings) fmt::print("warning: {}\n", one);
-  fmt::print("{}: {}, walls grown by {:.3f} m ({:.3f} m and a margin)\n", run.world().name, method_text(words),
+  fmt::print("{}: {}, walls grown by {:.3f} m ({:.3f} m and a margin)\n", world.name, method_text(words),
              made.obstacles.radius(), robot.radius);
   fmt::print("  {} places, {} pieces, {} branches, {} component{}\n", made.graph.nodes.size(), made.graph.edges.size(),
              branches, components, components == 1 ? "" : "s");

@@ -13,7 +13,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Cuts [from, to] to the part of a line, from `start` on by `change`, that lies within `half` of 0.
 void clip(double start, double change, double half, double& from, double& to) {
   if (change == 0) {
-    if (std::abs(start) >= half) to = -1;
+    if (std::abs(start) >= half) to = -infinite;
     return;
   }
   const double one = (-half - start) / change, other = (half - start) / change;

@@ -23,10 +23,6 @@ std::vector<std::uint32_t> joined(const Graph& graph, const Obstacles& obstacles
 
 }  // namespace
 
-std::vector<std::uint32_t> seen_from(const Graph& graph, const Obstacles& obstacles, const Point& p) {
-  return joined(graph, obstacles, p, 0);
-}
-
 Route route(const Graph& graph, const Obstacles& obstacles, const Point& start, const Point& goal, const Cost& cost,
             Guide guide) {
   constexpr double spare = 1e-6;  // [m] the start lies outside what is left of the radius
@@ -41,13 +37,9 @@ Route route(const Graph& graph, const Obstacles& obstacles, const Point& start, 
   const auto from = static_cast<std::uint32_t>(joint.nodes.size()), to = from + 1;
   joint.nodes.push_back(start);
   joint.nodes.push_back(goal);
-  const auto onto = joined(graph, obstacles, start, give), off = joined(graph, obstacles, goal, 0);
-  for (const std::uint32_t i : onto) joint.edges.push_back({from, i});
-  for (const std::uint32_t i : off) joint.edges.push_back({i, to});
-  const bool is_direct = obstacles.is_free(start, goal, give);
-  if (is_direct) joint.edges.push_back({from, to});
-  if (!is_direct && onto.empty()) return refused("no place of the roadmap can be reached from " + text(start));
-  if (!is_direct && off.empty()) return refused("the goal " + text(goal) + " can be reached from no place of the roadmap");
+  for (const std::uint32_t i : joined(graph, obstacles, start, give)) joint.edges.push_back({from, i});
+  for (const std::uint32_t i : joined(graph, obstacles, goal, 0)) joint.edges.push_back({i, to});
+  if (obstacles.is_free(start, goal, give)) joint.edges.push_back({from, to});
   const Found found = cheapest(joint, from, to, cost, guide);
   if (found.nodes.empty()) return refused("no way leads from " + text(start) + " to " + text(goal));
   for (const std::uint32_t i : found.nodes) {

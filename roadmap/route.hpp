@@ -20,7 +20,4 @@ struct Route {
 Route route(const Graph& graph, const Obstacles& obstacles, const Point& start, const Point& goal,
             const Cost& cost = length_cost, Guide guide = Guide::distance);
 
-// The numbers of places that a straight line joins to a point.
-std::vector<std::uint32_t> seen_from(const Graph& graph, const Obstacles& obstacles, const Point& p);
-
 }  // namespace muster::roadmap

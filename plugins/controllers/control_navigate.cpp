@@ -98,7 +98,8 @@ struct ControlNavigate {
         command(s.write<Command>("robot/{robot}/command")),
         state(s.write<State>("self/state")) {
     if (s.text("roadmap").empty()) {
-      cell = s.read<roadmap::Cell>("robot/{robot}/roadmap");
+      cell = s.read_if_any<roadmap::Cell>("robot/{robot}/roadmap");
+      robot = s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(s.param("robot")));
     } else {
       rows = s.file<roadmap::Row>("roadmap");
     }
@@ -156,6 +157,9 @@ struct ControlNavigate {
 
   // Reads the roadmap where it changed. False while the robot has none yet.
   bool take_roadmap(const Step& k) {
+    if (cell && k[*cell].empty())
+      throw BadInput("the robot has no roadmap; expected roadmap=\"FILE\" of muster roadmap, or <robots.roadmap robot=\"" +
+                     robot + "\"/> in the world");
     try {
       if (rows && !map) map = roadmap::map_of(k[*rows].begin(), k[*rows].size());
       if (cell && !(k[*cell]->radius > 0)) return false;
@@ -317,7 +321,7 @@ struct ControlNavigate {
   std::optional<In<Waypoint>> goals;
   std::optional<In<Scan>> scan;
   std::optional<In<RssiPlace>> levels;
-  std::string station;
+  std::string robot, station;
   // Kept between ticks, and the same from the same inputs.
   std::optional<roadmap::Map> map;
   std::string map_bytes;

@@ -113,7 +113,7 @@ struct RobotsRoadmap {
                 body.radius + margin,
                 recipe,
                 k[cell]->graph};
-    k.event("a roadmap of " + std::to_string(graph.nodes.size()) + " places and " +
+    k.event("note: a roadmap of " + std::to_string(graph.nodes.size()) + " places and " +
             std::to_string(graph.edges.size()) + " pieces");
   }
 
