@@ -1,12 +1,12 @@
-// muster roadmap WORLD: where a robot can drive on the world's plan, as a table of pieces, and a way from place to place.
-#include "roadmap/plan.hpp"
-
+// muster roadmap WORLD: where a robot can drive on the world's plan, as a table of pieces, and a way from place to
+// place.
 #include <fmt/core.h>
 
 #include <cmath>
 #include <muster/tables.hpp>
 
 #include "diagnosis/radio/links/run_tables.hpp"
+#include "roadmap/plan.hpp"
 #include "roadmap/route.hpp"
 #include "roadmap/rows.hpp"
 #include "run_options.hpp"
@@ -44,7 +44,9 @@ RoadmapWords roadmap_words(const Arguments& arguments) {
   line.option("world", words.world, "the world's folder or file").required();
   line.option("--robot", words.robot, "whose radius, by its model; the only one of the world if there is one");
   line.option("--radius", words.radius, "of the robot, in m, instead").excludes("--robot");
-  line.option("--method", words.method, "how the free space is made a graph").one_of({"visibility", "grid"}).shows_default();
+  line.option("--method", words.method, "how the free space is made a graph")
+      .one_of({"visibility", "grid"})
+      .shows_default();
   line.option("--step", step, "between places of the grid, in m").shows_default();
   line.option("--margin", margin, "kept from walls beyond the radius, in m").shows_default();
   line.option("--room", room, "around walls and robots, in m").shows_default();
@@ -216,7 +218,8 @@ std::vector<std::string> roadmap_warnings(const World& world, const PlannedRobot
       from = goal.at;
     }
   }
-  if (!declared_names(world, "mesh").empty()) result.push_back("the world's meshes are not in the roadmap, which is made of walls alone");
+  if (!declared_names(world, "mesh").empty())
+    result.push_back("the world's meshes are not in the roadmap, which is made of walls alone");
   return result;
 }
 

@@ -59,8 +59,7 @@ double Obstacles::depth(const Point& p) const {
   double deepest = 0;
   for (const Frame& f : frames_) {
     const Point at = f.local(p);
-    const double inside =
-        std::min(f.half_length + radius_ - std::abs(at.x), f.half_width + radius_ - std::abs(at.y));
+    const double inside = std::min(f.half_length + radius_ - std::abs(at.x), f.half_width + radius_ - std::abs(at.y));
     deepest = std::max(deepest, inside);
   }
   return deepest > touch ? deepest : 0;

@@ -12,7 +12,8 @@ namespace muster::roadmap {
 
 enum class Doors { as_they_stand, open };
 
-// Of heights: what of a wall is wholly below the first or above the second is in nobody's way, such as that over a door.
+// Of heights: what of a wall is wholly below the first or above the second is in nobody's way, such as that over a
+// door.
 struct Heights {
   double from, to;  // [m]
 };

@@ -43,7 +43,8 @@ Map map_of(const Row* rows, std::size_t count) {
       continue;
     }
     if (!(r.width >= 0 && r.radius >= 0)) refuse("has a negative width or radius");
-    if (!blocks.empty() && r.radius != radius) refuse("has another radius than a row before; expected one for all walls");
+    if (!blocks.empty() && r.radius != radius)
+      refuse("has another radius than a row before; expected one for all walls");
     radius = r.radius;
     blocks.push_back({{r.x0, r.y0}, {r.x1, r.y1}, r.width});
   }

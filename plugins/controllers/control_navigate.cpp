@@ -26,17 +26,22 @@ std::string metres(double value) {
 
 struct ControlNavigate {
   static constexpr auto id = "control.navigate/1";
-  static constexpr auto summary = "plans a robot's way on a roadmap (A*), follows it and plans anew where it is blocked";
+  static constexpr auto summary =
+      "plans a robot's way on a roadmap (A*), follows it and plans anew where it is blocked";
   static constexpr auto manual =
       "The goal is robot/*/goal2d, which control.mission asks for, or each row of `goals` in turn. The way is the\n"
       "cheapest on the roadmap by A* (Hart, Nilsson, Raphael 1968), straight onto it and straight off it; the robot\n"
       "pursues a point of it `lookahead` ahead (control.connectivity's law). The roadmap is a table of muster roadmap\n"
-      "(`roadmap`), or that of a robots.roadmap in the world. Two inputs are optional. With `laser` an echo farther than\n"
+      "(`roadmap`), or that of a robots.roadmap in the world. Two inputs are optional. With `laser` an echo farther "
+      "than\n"
       "`off_plan` from every wall of the roadmap is an obstacle: pieces nearer to it than the roadmap's radius are\n"
-      "closed, until it was not seen for `forget`, and where the way ahead is closed the robot plans anew. With `rssi`,\n"
+      "closed, until it was not seen for `forget`, and where the way ahead is closed the robot plans anew. With "
+      "`rssi`,\n"
       "a table of muster map, each metre counts as 1 + `weight` for each dB that `station`'s rssi there is below\n"
-      "`threshold`. Without a way the robot stops, says why, and tries again each second. The table self/state has what\n"
-      "it does: status (0 no goal, 1 on its way, 2 there, 3 no way), plans made, place along the way, echoes kept. The\n"
+      "`threshold`. Without a way the robot stops, says why, and tries again each second. The table self/state has "
+      "what\n"
+      "it does: status (0 no goal, 1 on its way, 2 there, 3 no way), plans made, place along the way, echoes kept. "
+      "The\n"
       "robot knows its odometry, in whose frame roadmap and goals are.";
   static constexpr auto phase = MUSTER_CONTROL;
   static constexpr Param params[] = {
@@ -148,8 +153,7 @@ struct ControlNavigate {
 
   void store(const Step& k, Memory& m) const {
     m.now.echoes = static_cast<double>(m.seen.size());
-    k.put_bytes(state, 0, way_column,
-                {reinterpret_cast<const char*>(m.way.data()), m.way.size() * sizeof(Waypoint)});
+    k.put_bytes(state, 0, way_column, {reinterpret_cast<const char*>(m.way.data()), m.way.size() * sizeof(Waypoint)});
     k.put_bytes(state, 0, seen_column, m.seen.bytes());
     m.now.way = k[state]->way, m.now.seen = k[state]->seen;
     *k[state] = m.now;
@@ -158,8 +162,9 @@ struct ControlNavigate {
   // Reads the roadmap where it changed. False while the robot has none yet.
   bool take_roadmap(const Step& k) {
     if (cell && k[*cell].empty())
-      throw BadInput("the robot has no roadmap; expected roadmap=\"FILE\" of muster roadmap, or <robots.roadmap robot=\"" +
-                     robot + "\"/> in the world");
+      throw BadInput(
+          "the robot has no roadmap; expected roadmap=\"FILE\" of muster roadmap, or <robots.roadmap robot=\"" + robot +
+          "\"/> in the world");
     try {
       if (rows && !map) map = roadmap::map_of(k[*rows].begin(), k[*rows].size());
       if (cell && !(k[*cell]->radius > 0)) return false;
@@ -175,8 +180,8 @@ struct ControlNavigate {
     if (!levels || rssi) return true;
     rssi = RssiMap(k[*levels]);
     if (!rssi->any_received())
-      throw BadInput("the table of rssi has no value in a column " + station + "[dBm]; expected that of muster map --from " +
-                     station);
+      throw BadInput("the table of rssi has no value in a column " + station +
+                     "[dBm]; expected that of muster map --from " + station);
     return true;
   }
 
@@ -310,8 +315,8 @@ struct ControlNavigate {
   static constexpr double again = 1;           // [s] between plans while there is no way
   static constexpr double least_radius = 0.1;  // [m] kept from echoes where the roadmap has no walls, thus no radius
 
-  Value loop, threshold, weight, speed, slow_gain, turn_gain, turn_speed, lookahead, tolerance, turn_tolerance, off_plan,
-      reach, forget;
+  Value loop, threshold, weight, speed, slow_gain, turn_gain, turn_speed, lookahead, tolerance, turn_tolerance,
+      off_plan, reach, forget;
   In<Odometry> odometry;
   Out<Command> command;
   Out<State> state;

@@ -33,7 +33,7 @@ class SeenObstacles {
   struct Spot {
     double x, y, t;
   };
-  static constexpr double cell = 0.1;            // [m] edge of a cell, of which one echo is kept
+  static constexpr double cell = 0.1;               // [m] edge of a cell, of which one echo is kept
   std::map<std::pair<double, double>, Spot> seen_;  // by the cell's column and row
 };
 

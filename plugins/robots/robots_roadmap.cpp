@@ -39,7 +39,8 @@ struct RobotsRoadmap {
   static constexpr auto id = "robots.roadmap/1";
   static constexpr auto summary = "a robot's roadmap, made from the plan for its radius: a grid or a visibility graph";
   static constexpr auto manual =
-      "Walls are grown by the radius of the robot (of the circle around its origin that holds it however it turns) and\n"
+      "Walls are grown by the radius of the robot (of the circle around its origin that holds it however it turns) "
+      "and\n"
       "a `margin`, with square corners. `method`: the reduced visibility graph of their corners (Lozano-Perez and\n"
       "Wesley 1979), whose ways are the shortest, or a grid of free places `step` apart, each joined to eight. It is\n"
       "made at the first tick, with the doors as they stand then; with open_doors every door is a way, and it is for\n"
@@ -47,14 +48,13 @@ struct RobotsRoadmap {
       "Meshes of the world are not seen. control.navigate reads the result, robot/*/roadmap; its graph has the rows\n"
       "of the table that `muster roadmap` writes.";
   static constexpr auto phase = MUSTER_SENSE;
-  static constexpr Param params[] = {
-      reference("robot", "robot", "the robot that is given it").required(),
-      choice("method", "visibility|grid", "the reduced visibility graph, or a lattice"),
-      real("step", 0.5, 0.01, 100, "m", "between places of the grid"),
-      real("radius", 0, 0, 100, "m", "of the robot; 0: by its model"),
-      real("margin", 0.05, 0, 100, "m", "that it keeps from walls beyond its radius"),
-      real("room", 1, 0, 1000, "m", "around walls and robot in which it plans"),
-      flag("open_doors", false, "doors that are closed at the start count as open")};
+  static constexpr Param params[] = {reference("robot", "robot", "the robot that is given it").required(),
+                                     choice("method", "visibility|grid", "the reduced visibility graph, or a lattice"),
+                                     real("step", 0.5, 0.01, 100, "m", "between places of the grid"),
+                                     real("radius", 0, 0, 100, "m", "of the robot; 0: by its model"),
+                                     real("margin", 0.05, 0, 100, "m", "that it keeps from walls beyond its radius"),
+                                     real("room", 1, 0, 1000, "m", "around walls and robot in which it plans"),
+                                     flag("open_doors", false, "doors that are closed at the start count as open")};
 
   explicit RobotsRoadmap(Setup& s)
       : is_grid(s.param("method") == 1),
@@ -96,9 +96,8 @@ struct RobotsRoadmap {
     try {
       const roadmap::Obstacles obstacles(blocks, body.radius + margin);
       const roadmap::Area area = roadmap::area_of(blocks, {{at.x, at.y}}, room + obstacles.radius());
-      graph = roadmap::without_lone(is_grid ? roadmap::lattice(obstacles, area, step_length)
-                                            : roadmap::visibility_graph(obstacles, area),
-                                    alone);
+      graph = roadmap::without_lone(
+          is_grid ? roadmap::lattice(obstacles, area, step_length) : roadmap::visibility_graph(obstacles, area), alone);
       rows = roadmap::rows_of(graph, obstacles);
     } catch (const std::runtime_error& e) {
       throw BadInput(e.what());

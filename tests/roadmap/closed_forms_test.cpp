@@ -27,9 +27,7 @@ TEST(ClosedForms, Row49AroundOneBoxTheWayIsThatOfItsCorners) {
     EXPECT_EQ(rm::branches_of(graph), 0u);
     for (const double y : {-1.4, -0.3, 0.0, 0.9}) {
       const rm::Point start = turned({-5, y}, yaw), goal = turned({5, 0.2}, yaw);
-      const auto by = [&](double side) {
-        return std::hypot(2.5, side - y) + 5 + std::hypot(2.5, side - 0.2);
-      };
+      const auto by = [&](double side) { return std::hypot(2.5, side - y) + 5 + std::hypot(2.5, side - 0.2); };
       const rm::Route way = rm::route(graph, box, start, goal);
       EXPECT_NEAR(way.length, std::min(by(1.5), by(-1.5)), 1e-9) << yaw << ' ' << y;
       EXPECT_EQ(way.points.size(), 4u);
@@ -47,8 +45,8 @@ TEST(ClosedForms, Row49AnEmptyRoomsGridHasOctileWays) {
   EXPECT_EQ(rm::count_of(rm::components_of(grid)), 1u);
   for (std::uint32_t to = 0; to < 35; ++to) {
     const double x = std::abs(grid.nodes[to].x - grid.nodes[0].x), y = std::abs(grid.nodes[to].y - grid.nodes[0].y);
-    EXPECT_NEAR(rm::cheapest(grid, 0, to, rm::length_cost).cost,
-                std::max(x, y) + (std::sqrt(2.0) - 1) * std::min(x, y), 1e-12);
+    EXPECT_NEAR(rm::cheapest(grid, 0, to, rm::length_cost).cost, std::max(x, y) + (std::sqrt(2.0) - 1) * std::min(x, y),
+                1e-12);
   }
   EXPECT_NEAR(rm::free_area(room, {0, 0, 4, 3}), 3 * 2, 0.03);
 }

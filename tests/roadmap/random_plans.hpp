@@ -32,8 +32,7 @@ inline RandomPlan random_plan(unsigned seed) {
     const bool is_square = between(0, 1) < 0.5;
     const double yaw = is_square ? std::floor(between(0, 4)) * 1.5707963267948966 : between(0, 6.28);
     const rm::Point from = is_square ? rm::Point{std::floor(x), std::floor(y)} : rm::Point{x, y};
-    plan.blocks.push_back(
-        {from, {from.x + length * std::cos(yaw), from.y + length * std::sin(yaw)}, between(0, 0.4)});
+    plan.blocks.push_back({from, {from.x + length * std::cos(yaw), from.y + length * std::sin(yaw)}, between(0, 0.4)});
   }
   plan.radius = between(0.1, 0.4);
   plan.obstacles = rm::Obstacles(plan.blocks, plan.radius);

@@ -48,9 +48,10 @@ TEST(RoadmapVerb, Row49TheWayIsOneThatOtherControllersFollow) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(box + rover));
   figures(folder, {"--to", "5", "0.1", "--path", "way.csv"});
-  folder.write("drive.xml", world_of(box + rover +
-                                     "<physics.planar through_walls=\"true\"/><robots.drive/><robots.odometry/>"
-                                     "<control.waypoint name=\"steer\" robot=\"rover\" path=\"way.csv\" speed=\"0.5\"/>"));
+  folder.write("drive.xml",
+               world_of(box + rover +
+                        "<physics.planar through_walls=\"true\"/><robots.drive/><robots.odometry/>"
+                        "<control.waypoint name=\"steer\" robot=\"rover\" path=\"way.csv\" speed=\"0.5\"/>"));
   const Outcome run = folder.muster({"run", "drive.xml", "--until", "40", "--out", "out", "--record", "robot/*/pose"});
   ASSERT_EQ(run.exit, 0) << run.err;
   const TextTable poses = TextTable::read(folder / "out/robot_pose.csv");
@@ -91,10 +92,11 @@ TEST(RoadmapVerb, WarnsOfARobotThatCannotReachItsGoalOrStandsInAWall) {
   EXPECT_EQ(open["components"], 1);
 
   folder.write("goals.csv", "x[m],y[m]\n1,1\n-1,-1\n");
-  folder.write("world.xml",
-               world_of(room + "<robot name=\"in\" at=\"3 2 0\"/><physics.planar through_walls=\"true\"/><robots.drive/>"
-                               "<robots.odometry/><robots.roadmap robot=\"in\"/>"
-                               "<control.navigate robot=\"in\" goals=\"goals.csv\"/>"));
+  folder.write(
+      "world.xml",
+      world_of(room + "<robot name=\"in\" at=\"3 2 0\"/><physics.planar through_walls=\"true\"/><robots.drive/>"
+                      "<robots.odometry/><robots.roadmap robot=\"in\"/>"
+                      "<control.navigate robot=\"in\" goals=\"goals.csv\"/>"));
   EXPECT_THAT(figures(folder, {})["warnings"],
               ElementsAre("robot \"in\" cannot reach its goal: no way leads from 1 1 to -1 -1"));
 }
@@ -103,7 +105,8 @@ TEST(RoadmapVerb, RefusesWordsThatItCannotUse) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(room + "<robot name=\"one\" at=\"3 2 0\"/><robot name=\"two\" at=\"1 2 0\"/>"));
   folder.write("empty.xml", world_of("<material name=\"brick\" loss=\"6\"/>"));
-  const auto refused = [&](std::vector<std::string> words, const std::string& message, const char* world = "world.xml") {
+  const auto refused = [&](std::vector<std::string> words, const std::string& message,
+                           const char* world = "world.xml") {
     words.insert(words.begin(), {"roadmap", world, "--out", "roadmap.csv"});
     expect_error(folder.muster(words), 2, message);
     EXPECT_FALSE(std::filesystem::exists(folder / "roadmap.csv")) << message;

@@ -20,15 +20,19 @@ std::string levels(double north) {
 bool goes_north(double north, const std::string& weight) {
   const Folder folder;
   folder.write("levels.csv", levels(north));
-  Simulation run = world_of(
-      folder,
-      two_rooms + "<station name='base' at='2 1 1'/><robot name='rover' at='1 3.2 0'/>"
-                  "<physics.planar through_walls='true'/><robots.drive/><robots.odometry/>" + plan +
-          "<control.navigate name='steer' robot='rover' goals='goals.csv' rssi='levels.csv' station='base' "
-          "threshold='-70' weight='" + weight + "'/>",
-      {{"goals.csv", "x[m],y[m]\n7,3.2\n"}}, minutes);
+  Simulation run =
+      world_of(folder,
+               two_rooms +
+                   "<station name='base' at='2 1 1'/><robot name='rover' at='1 3.2 0'/>"
+                   "<physics.planar through_walls='true'/><robots.drive/><robots.odometry/>" +
+                   plan +
+                   "<control.navigate name='steer' robot='rover' goals='goals.csv' rssi='levels.csv' station='base' "
+                   "threshold='-70' weight='" +
+                   weight + "'/>",
+               {{"goals.csv", "x[m],y[m]\n7,3.2\n"}}, minutes);
   bool north_of = false;
-  EXPECT_TRUE(run_to_goal(run, 1, [&](const Pose& at) { north_of = north_of || (std::abs(at.x - 4) < 0.1 && at.y > 2); }));
+  EXPECT_TRUE(
+      run_to_goal(run, 1, [&](const Pose& at) { north_of = north_of || (std::abs(at.x - 4) < 0.1 && at.y > 2); }));
   const Navigation now = state_of(run);
   EXPECT_EQ(now.reached, 1);
   return north_of;
@@ -96,8 +100,9 @@ TEST(NavigateInputs, WhatIsWrongIsNamedOnce) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal("rssi='levels.csv'", {{"levels.csv", levels(-60)}}),
               EndsWith("has rssi and no station; expected station=\"RADIO\", a column of it"));
-  EXPECT_THAT(refusal("rssi='levels.csv' station='base'", {{"levels.csv", "x[m],y[m],mast[dBm]\n1,1,-60\n"}}),
-              EndsWith("the table of rssi has no value in a column base[dBm]; expected that of muster map --from base"));
+  EXPECT_THAT(
+      refusal("rssi='levels.csv' station='base'", {{"levels.csv", "x[m],y[m],mast[dBm]\n1,1,-60\n"}}),
+      EndsWith("the table of rssi has no value in a column base[dBm]; expected that of muster map --from base"));
   EXPECT_THAT(refusal("roadmap='way.csv'", {{"way.csv", "x[m],y[m]\n1,1\n"}}, ""), HasSubstr("way.csv:1:1: "));
   EXPECT_THAT(refusal("roadmap='way.csv'", {{"way.csv", "x0[m],y0[m],x1[m],y1[m]\n1,1,1,1\n"}}, ""),
               EndsWith("row 1 of the roadmap has no length; expected two different ends"));

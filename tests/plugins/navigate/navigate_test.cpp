@@ -16,8 +16,8 @@ TEST(Navigate, Row49GetsThereByTheShortestWayAndKeepsItsRadiusFromEveryWall) {
     Simulation run = navigating(folder, "7,3.5\n", "", "",
                                 "<robots.roadmap name='plan' robot='rover' step='0.25' method='" + method + "'/>");
     // The walls with their gaps, from the figures of the world's text.
-    const std::vector<rm::Block> walls{{{0, 0}, {8, 0}, 0.1}, {{0, 4}, {8, 4}, 0.1},     {{0, 0}, {0, 4}, 0.1},
-                                       {{8, 0}, {8, 4}, 0.1}, {{4, 0}, {4, 0.5}, 0.1},   {{4, 1.4}, {4, 2.8}, 0.1},
+    const std::vector<rm::Block> walls{{{0, 0}, {8, 0}, 0.1},  {{0, 4}, {8, 4}, 0.1},   {{0, 0}, {0, 4}, 0.1},
+                                       {{8, 0}, {8, 4}, 0.1},  {{4, 0}, {4, 0.5}, 0.1}, {{4, 1.4}, {4, 2.8}, 0.1},
                                        {{4, 3.7}, {4, 4}, 0.1}};
     double least = 1e9, gone = 0, along = 0;
     Pose before = row<Pose>(run, "robot/rover/pose");
@@ -94,7 +94,7 @@ TEST(Navigate, AGoalWithoutAWayIsOneClearMessage) {
     return said(run);
   };
   EXPECT_THAT(events("7,3.9\n"), ElementsAre("no way to 7.00 3.90: the goal 7 3.9 is 0.05 m from a wall; expected at "
-                                              "least the radius, 0.2024 m, on all sides"));
+                                             "least the radius, 0.2024 m, on all sides"));
   EXPECT_THAT(events("9,9\n"), ElementsAre("no way to 9.00 9.00: no way leads from 1 1 to 9 9"));
 }
 

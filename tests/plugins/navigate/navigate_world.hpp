@@ -34,8 +34,8 @@ inline Simulation navigating(const Folder& folder, const std::string& goals, con
                              const std::string& more = "", const std::string& given = plan,
                              const std::string& rooms = two_rooms) {
   return world_of(folder,
-                  rooms + rover + given + "<control.navigate name='steer' robot='rover' goals='goals.csv' " + attributes +
-                      "/>" + more,
+                  rooms + rover + given + "<control.navigate name='steer' robot='rover' goals='goals.csv' " +
+                      attributes + "/>" + more,
                   {{"goals.csv", "x[m],y[m]\n" + goals}}, minutes);
 }
 

@@ -85,7 +85,8 @@ TEST(NavigateWorld, Row49WithTheDoorOpenItGoesStraightThrough) {
 }
 
 TEST(NavigateWorld, Row49LaserRssiAndRoadmapAreEachExchanged) {
-  const std::string laser = "laser=\"true\" ", rssi = "rssi=\"rssi.csv\" station=\"base\" threshold=\"-65\" weight=\"0.05\"";
+  const std::string laser = "laser=\"true\" ",
+                    rssi = "rssi=\"rssi.csv\" station=\"base\" threshold=\"-65\" weight=\"0.05\"";
   const Course grid = course(replacing("method=\"visibility\"", "method=\"grid\" step=\"0.25\""));
   EXPECT_EQ(grid.reached, 2);
   EXPECT_TRUE(grid.by_corridor);
