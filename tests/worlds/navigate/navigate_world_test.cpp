@@ -40,7 +40,7 @@ void hear(const Simulation& run, std::vector<std::string>& words) {
 // The world's run with its text changed.
 Course course(const std::function<void(std::string&)>& change = {}) {
   const Folder copy;
-  for (const char* file : {"walls.csv", "rssi.csv", "mission.xml"}) copy.write(file, contents(folder / file));
+  for (const char* file : {"walls.csv", "rssi.csv", "missions/rover.xml"}) copy.write(file, contents(folder / file));
   std::string text = contents(folder / "world.xml");
   if (change) change(text);
   Simulation run(read_world(copy.write("world.xml", text), standard()), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
