@@ -17,7 +17,8 @@ Graph lattice(const Obstacles& obstacles, const Area& area, double step) {
   std::vector<std::uint32_t> number(width * height, none);
   Graph result;
   for (std::size_t i = 0; i < number.size(); ++i) {
-    const Point at{(west + static_cast<double>(i % width)) * step, (south + static_cast<double>(i / width)) * step};
+    const std::size_t column = i % width, line = i / width;
+    const Point at{(west + static_cast<double>(column)) * step, (south + static_cast<double>(line)) * step};
     if (!obstacles.is_free(at)) continue;
     number[i] = static_cast<std::uint32_t>(result.nodes.size());
     result.nodes.push_back(at);

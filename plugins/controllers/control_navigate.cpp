@@ -69,14 +69,15 @@ struct ControlNavigate {
 
   struct State {
     static constexpr const char* columns =
-        "status goal_x[m]? goal_y[m]? next reached plans along[m] length[m] cost[m] echoes way{} seen{}";
+        "status goal_x[m]? goal_y[m]? next reached plans along[m] length[m] cost[m] echoes told way{} seen{}";
     double status, goal_x, goal_y;
     double next, reached;        // row of goals, from 0; number of those reached
     double plans;                // made so far
     double along, length, cost;  // place on the way; its length, and what A* made of it
-    double echoes, way, seen;    // echoes kept; points of the way; the echoes
+    double echoes;               // kept
+    double told, way, seen;      // 1: its way to the goal was an event; points of the way; the echoes
   };
-  static constexpr unsigned way_column = 10, seen_column = 11;
+  static constexpr unsigned way_column = 11, seen_column = 12;
 
   // What a tick begins with and leaves.
   struct Memory {
@@ -235,15 +236,25 @@ struct ControlNavigate {
 
   // At the goal: turns to the heading that is asked for.
   void rest(const Step& k, Memory& m, const Goal2d& to) const {
-    if (m.now.status != there || m.now.goal_x != to.x || m.now.goal_y != to.y) {
+    if (m.now.told != 0 || is_elsewhere(m, to)) {
       ++m.now.reached;
       k.event("is at " + place_text(to));
     }
+    m.now.told = 0;
     m.now.status = there, m.now.goal_x = to.x, m.now.goal_y = to.y;
     m.now.along = m.now.length = m.now.cost = 0;
     m.way.clear();
     const double off = is_null(to.yaw) ? 0 : turn_to(to.yaw, k[odometry]->yaw);
     if (std::abs(off) > k[turn_tolerance]) k[command]->w = Turning{k[turn_gain], k[turn_speed]}.rate(off);
+  }
+
+  // True where the goal is another than before. One that moves on a little, as that of a mission which follows
+  // somebody, is no news.
+  bool is_elsewhere(const Memory& m, const Goal2d& to) const {
+    constexpr double little = 0.5;  // [m]
+    if (m.now.status == no_goal || is_null(m.now.goal_x)) return true;
+    const double moved = std::hypot(to.x - m.now.goal_x, to.y - m.now.goal_y);
+    return moved > (goals ? 0 : little);
   }
 
   static std::string place_text(const Goal2d& to) { return metres(to.x) + ' ' + metres(to.y); }
@@ -258,11 +269,8 @@ struct ControlNavigate {
       return rssi ? rssi->cost(a, b, k[threshold], k[weight]) : roadmap::distance(a, b);
     };
     const roadmap::Route found = roadmap::route(map->graph, map->obstacles, start, {to.x, to.y}, cost);
-    // A goal that moves on by less than this, as that of a mission which follows somebody, is no news.
-    constexpr double elsewhere = 0.5;  // [m]
-    const bool was_without = m.now.status == no_way;
-    const bool is_news = m.now.status == no_goal || !why.empty() || is_null(m.now.goal_x) ||
-                         std::hypot(to.x - m.now.goal_x, to.y - m.now.goal_y) > elsewhere;
+    const bool was_without = m.now.status == no_way, is_news = !why.empty() || is_elsewhere(m, to);
+    if (is_news) m.now.told = 1;
     ++m.now.plans;
     m.now.goal_x = to.x, m.now.goal_y = to.y;
     m.now.along = 0, m.now.length = found.length, m.now.cost = found.cost;

@@ -1,6 +1,7 @@
 // Plans of walls at random places, the same for a seed, and two free places in each.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>

@@ -129,6 +129,26 @@ TEST(Navigate, DrivesWhereAMissionSendsIt) {
   EXPECT_TRUE(is_done);
 }
 
+TEST(Navigate, AGoalThatMovesOnALittleAtATimeIsFollowedWithoutAnEventEachTime) {
+  const Folder folder;
+  Simulation run = world_of(folder,
+                            two_rooms + rover + plan +
+                                "<robot name='leader' at='2.5 1 0'/>"
+                                "<radio.multiwall l0='40' n='2'/><network.ideal/>"
+                                "<control.mission name='leads' robot='leader' mission='leader.xml' report='0.2'/>"
+                                "<control.goal2d robot='leader' speed='0.2'/>"
+                                "<control.mission name='mission' robot='rover' mission='mission.xml'/>"
+                                "<control.navigate name='steer' robot='rover'/>",
+                            {{"leader.xml", "<mission><go_to at='7 1'/><go_to at='7 3'/></mission>"},
+                             {"mission.xml", "<mission><follow radio='leader' distance='1' until='stop'/></mission>"}},
+                            minutes);
+  while (!run.done()) run.step();
+  const Pose at = row<Pose>(run, "robot/rover/pose");
+  EXPECT_LT(std::hypot(at.x - 7, at.y - 3), 1.2);
+  EXPECT_GT(state_of(run).plans, 50);
+  EXPECT_LT(said(run).size(), 5u);
+}
+
 TEST(Navigate, ARobotBesideItsWayPlansAnew) {
   const Folder folder;
   Simulation run = navigating(folder, "7,1\n");

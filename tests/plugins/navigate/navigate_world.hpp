@@ -12,7 +12,7 @@ namespace muster::test {
 
 // As control.navigate writes it.
 struct Navigation {
-  double status, goal_x, goal_y, next, reached, plans, along, length, cost, echoes, way, seen;
+  double status, goal_x, goal_y, next, reached, plans, along, length, cost, echoes, told, way, seen;
 };
 
 inline const std::string two_rooms =
