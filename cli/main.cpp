@@ -40,6 +40,7 @@ constexpr Verb verbs[] = {
     {"report", run_report, "a recorded run as one page: scene, time and plots, without a network"},
     {"log", cli::run_log, "what an MCAP file of a run holds; recover, cut, or make a table of it"},
     {"map", run_map, "the RSSI of a world's radios over its floor"},
+    {"roadmap", run_roadmap, "where a robot can drive on a world's plan, and the shortest way"},
     {"probe", run_probe, "a link's budget, line by line, and why nothing is received"},
     {"features", run_features, "distance, walls and angles of each measured reading"},
     {"import", run_import, "bring a foreign file into the format of measured data"},

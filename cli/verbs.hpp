@@ -29,6 +29,7 @@ int run_plugin_check(const Arguments& arguments);
 int run_plugins(const Arguments& arguments);
 int run_probe(const Arguments& arguments);
 int run_report(const Arguments& arguments);
+int run_roadmap(const Arguments& arguments);
 int run_run(const Arguments& arguments);
 int run_schema(const Arguments& arguments);
 int run_swap(const Arguments& arguments);

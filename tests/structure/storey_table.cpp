@@ -19,7 +19,9 @@ const Storeys& storeys() {
 
       // A plugin includes its own folder and the headers beside all folders of plugins; never kernel/ or loader/.
       {"plugins", {"plugin_api", "scene", "description"}},
-      {"plugins/*", {"plugin_api", "scene", "description", "medium", "plugins"}},
+      // Ways through the free space of a plan.
+      {"roadmap", {"plugin_api", "scene", "plugins"}},
+      {"plugins/*", {"plugin_api", "scene", "roadmap", "description", "medium", "plugins"}},
       {"plugins/causes", {"plugin_api", "scene", "plugins", "plugins/radio_fading"}},
       // Programs outside, and logs.
       {"plugins/bridge_socket", {"plugin_api", "ports"}},
@@ -79,7 +81,7 @@ const Storeys& storeys() {
       {"run_log/tables", {"text", "mcap"}},
       {"run_log", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log/tables"}},
       // Missions and orders are XML files.
-      {"plugins/controllers", {"plugin_api", "text", "description", "plugins"}},
+      {"plugins/controllers", {"plugin_api", "text", "roadmap", "description", "plugins"}},
       // In the place of a robot's hardware.
       {"plugins/devices", {"plugin_api", "text", "ports", "mcap", "run_log/tables"}},
       // A run for those who watch and drive it as it goes.
@@ -90,8 +92,8 @@ const Storeys& storeys() {
       // Clients of the bridge, one file each, for programs outside.
       {"bridge", {}},
       {"cli",
-       {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*", "viewer", "mcap", "run_log",
-        "live"}},
+       {"plugin_api", "text", "loader", "world_file", "kernel", "roadmap", "plotting", "diagnosis/*", "viewer", "mcap",
+        "run_log", "live"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;
