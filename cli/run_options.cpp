@@ -64,6 +64,15 @@ void refuse_fixed(const World& world, const XmlAttribute& given) {
   }
 }
 
+ParameterInfo parameter_at(const Simulation& run, const XmlAttribute& given) {
+  try {
+    return run.parameter(given.name);
+  } catch (const Error& e) {
+    if (given.place.line == 0) throw;
+    throw Error(e.exit(), given.place, e.message());
+  }
+}
+
 void set_parameter(Simulation& run, const XmlAttribute& given) {
   refuse_fixed(run.world(), given);
   const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
@@ -73,7 +82,7 @@ void set_parameter(Simulation& run, const XmlAttribute& given) {
   const Warn warn = [](const Place& place, const std::string& message) {
     fmt::print(stderr, "muster: warning: {}: {}\n", place.text(), message);
   };
-  const auto info = run.parameter(given.name);
+  const auto info = parameter_at(run, given);
   run.set_parameter(given.name, attribute_values(*info.declared, 1, given, no_rows, warn).at(0));
 }
 

@@ -11,6 +11,7 @@
 #include "sweep_workers.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 namespace {
@@ -246,8 +247,7 @@ int run_sweep(const Arguments& arguments) {
   line.flag("--json", words.json, "print the outcome as JSON");
   line.parse(arguments);
   const sweep::SweepFile file = sweep::read_sweep(words.file);
-  if (fs::exists(words.out) && !fs::is_directory(words.out))
-    throw Error(Exit::invalid_input, "--out: " + quote(words.out) + " is a file; expected a folder");
+  WrittenFiles::writes_folder(words.out, "--out");
   if (words.slurm > 0) return print_slurm(words, file), 0;
   if (words.parallel > 0) return print_parallel(words), 0;
   return static_cast<int>(Sweep(words, file).run());

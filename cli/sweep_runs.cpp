@@ -110,7 +110,6 @@ std::unique_ptr<Simulation> SweepRuns::make(std::size_t combination, std::int64_
     const Variation& varied = file_.varied[i];
     if (varied.kind != Variation::Kind::parameter) continue;
     told_at(values[i].place, [&] {
-      told_at(varied.place, [&] { run->parameter(varied.path); });  // the path's fault, not the value's
       set_parameter(*run, {varied.path, values[i].text, varied.place, values[i].place});
     });
   }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "text/text_file.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {
@@ -24,6 +25,7 @@ constexpr auto pause = std::chrono::milliseconds(20);  // between looks at the c
   // Of a parent that is killed, nothing goes on; it may be gone already.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(static_cast<int>(Exit::interrupted));
+  ::setpgid(0, 0);  // Ctrl-C is the parent's, who passes it on once: a second one would end this at once
   Exit code = Exit::internal;
   try {
     code = work();
@@ -58,6 +60,7 @@ Exit in_processes(int count, const std::function<Exit()>& work, const std::funct
     if (child > 0) children.push_back(child);
   }
   Exit result = Exit::done;
+  bool passed_on = false;
   while (!children.empty()) {
     for (std::size_t i = children.size(); i-- > 0;) {
       int status = 0;
@@ -65,6 +68,10 @@ Exit in_processes(int count, const std::function<Exit()>& work, const std::funct
       children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));
       const Exit code = code_of(status);
       if (result == Exit::done) result = code;
+    }
+    if (interrupted() && !passed_on) {
+      for (const pid_t child : children) ::kill(child, SIGINT);
+      passed_on = true;
     }
     if (meanwhile) meanwhile();
     std::this_thread::sleep_for(pause);

@@ -54,7 +54,13 @@ Axis axis_of(const SweepFile& sweep, std::size_t varied, std::vector<double>& at
   for (const Word& word : variation.values) {
     if (const auto number = parse_real(word.text)) at.push_back(*number);
   }
-  if (at.size() == variation.values.size() && at.size() > 1) return result;
+  if (at.size() == variation.values.size() && at.size() > 1) {
+    const auto [least, most] = std::minmax_element(at.begin(), at.end());
+    const double margin = 0.04 * (*most - *least);  // bars at the ends are inside
+    result.from = *least - margin;
+    result.to = *most + margin;
+    return result;
+  }
   at.clear();
   for (const Word& word : variation.values) {
     at.push_back(static_cast<double>(at.size()));
