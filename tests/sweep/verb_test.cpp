@@ -123,6 +123,17 @@ TEST(Sweep, PrintsTheCommandsOfShares) {
   EXPECT_EQ(folder.tables("array"), folder.tables("an out"));
 }
 
+// All of its combinations are made, and one of its runs is run.
+TEST(Sweep, TheSampleOfThePage) {
+  const SweepFolder folder;
+  const auto outcome = folder.sweep(
+      {MUSTER_SOURCE_DIR "/docs/samples/sweep/routing.xml", "--out", "out", "--index", "200", "--of", "240"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "share 200 of 240: 1 runs, all done; 1 of 240 in all\n");
+  EXPECT_EQ(folder.ask("out", "SELECT count(*) FROM value WHERE value > 0"),
+            2);  // by aodv, messages arrive and are relayed
+}
+
 // A run that fails is told and counted, and is no reason to leave out the others.
 TEST(Sweep, ARunThatFailsIsToldOnceAndDoneOnce) {
   const SweepFolder folder;
