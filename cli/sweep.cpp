@@ -2,6 +2,8 @@
 // came of them.
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "installation.hpp"
 #include "run_options.hpp"
 #include "sweep/job_table.hpp"
@@ -88,18 +90,18 @@ class Sweep {
   Exit run() {
     watch_interrupt();
     if (const Exit prepared = in_processes(1, [&] { return prepare(); }); prepared != Exit::done) return prepared;
+    if (!fs::exists(fs::path(words_.out) / sweep::JobTable::file_name) || !sweep::JobTable(words_.out).is_filled())
+      throw Error(Exit::plugin_fault, words_.file + ": a combination could not be made");  // its process crashed
     const sweep::Share share = share_.value_or(sweep::Share{});
+    sweep::Counts counts = counts_of(share);
+    before_ = counts.done;
     Exit worked = Exit::done;
-    {
-      sweep::Counts before;
-      {
-        sweep::JobTable table(words_.out);  // closed before the fork: a connection is its process's own
-        if (!table.is_filled()) throw Error(Exit::internal, "the table of runs has not been filled");
-        before = table.counts(share);
-      }
-      before_ = before.done;
-      const auto left = before.all - before.done;
-      if (left > 0) worked = work_in_processes(share, static_cast<int>(std::min<std::int64_t>(words_.jobs, left)));
+    while (counts.done < counts.all && worked == Exit::done && !interrupted()) {
+      worked =
+          work_in_processes(share, static_cast<int>(std::min<std::int64_t>(words_.jobs, counts.all - counts.done)));
+      // A run that crashes ends its worker: others are begun for those that were not touched, as long as that helps.
+      const auto untouched = std::exchange(counts, counts_of(share)).untouched;
+      if (counts.untouched == 0 || counts.untouched == untouched) break;
     }
     sweep::JobTable table(words_.out);
     if (interrupted()) {
@@ -125,6 +127,9 @@ class Sweep {
     expect_unchanged(table.sources(), file_, plugins_, words_.out);
     return Exit::done;
   }
+
+  // By a connection that is closed before the next fork: it is its process's own.
+  sweep::Counts counts_of(const sweep::Share& share) const { return sweep::JobTable(words_.out).counts(share); }
 
   Exit work(const sweep::Share& share) {
     sweep::JobTable table(words_.out);

@@ -18,7 +18,7 @@ CREATE TABLE metric (number INTEGER PRIMARY KEY, name TEXT NOT NULL, unit TEXT N
 CREATE TABLE worker (number INTEGER PRIMARY KEY AUTOINCREMENT);
 CREATE TABLE job (number INTEGER PRIMARY KEY, combination INTEGER NOT NULL, seed INTEGER NOT NULL,
   worker INTEGER REFERENCES worker, begun INTEGER NOT NULL DEFAULT 0, done INTEGER NOT NULL DEFAULT 0);
-CREATE INDEX job_open ON job (done, number);
+CREATE INDEX job_open ON job (done, begun, number);
 CREATE TABLE run (job INTEGER PRIMARY KEY REFERENCES job, worker INTEGER NOT NULL REFERENCES worker,
   time REAL NOT NULL, digest TEXT NOT NULL, fault TEXT NOT NULL);
 CREATE TABLE value (job INTEGER REFERENCES run, metric INTEGER REFERENCES metric, value REAL,
@@ -106,7 +106,7 @@ std::optional<Job> JobTable::claim(const Share& share) {
     std::map<std::int64_t, bool> lives;
     Statement query(database_,
                     "SELECT number, combination, seed, worker FROM job WHERE done = 0 AND number % ? = ? "
-                    "ORDER BY number");
+                    "ORDER BY begun, number");
     query.with(static_cast<std::int64_t>(share.of)).with(static_cast<std::int64_t>(share.index - 1));
     while (!found && query.step()) {
       const std::int64_t holder = query.integer(3);  // 0: none
@@ -156,10 +156,11 @@ void JobTable::release(const Job& job) {
 
 Counts JobTable::counts(const Share& share) {
   Statement query(database_,
-                  "SELECT count(*), coalesce(sum(done), 0), count(CASE WHEN fault <> '' THEN 1 END) FROM job "
+                  "SELECT count(*), coalesce(sum(done), 0), count(CASE WHEN fault <> '' THEN 1 END), "
+                  "count(CASE WHEN done = 0 AND begun = 0 THEN 1 END) FROM job "
                   "LEFT JOIN run ON run.job = job.number WHERE number % ? = ?");
   query.with(static_cast<std::int64_t>(share.of)).with(static_cast<std::int64_t>(share.index - 1)).step();
-  return {query.integer(0), query.integer(1), query.integer(2)};
+  return {query.integer(0), query.integer(1), query.integer(2), query.integer(3)};
 }
 
 std::vector<Job> JobTable::left() {

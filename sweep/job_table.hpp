@@ -41,7 +41,7 @@ struct Share {
 };
 
 struct Counts {
-  std::int64_t all = 0, done = 0, failed = 0;
+  std::int64_t all = 0, done = 0, failed = 0, untouched = 0;  // untouched: never begun
 };
 
 using Sources = std::map<std::string, std::string>;  // name of a file and its digest
@@ -61,8 +61,8 @@ class JobTable {
   Sources sources();
   std::vector<MetricTitle> metrics();
 
-  // The first job of the share that nobody does: open, or left by a worker that is no more. None: all are done or being
-  // done.
+  // A job of the share that nobody does: open, or left by a worker that is no more. Those that were never begun come
+  // first, so that one that crashes its workers holds up no other. None: all are done or being done.
   std::optional<Job> claim(const Share& share);
   // Of the claimed job. Throws Error where it is not this worker's, so that no job is recorded twice.
   void record(const Job& job, const RunResult& result);

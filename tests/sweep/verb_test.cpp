@@ -158,8 +158,36 @@ TEST(Sweep, ARunThatFailsIsToldOnceAndDoneOnce) {
   EXPECT_EQ(runs[1], 0);
 }
 
-// A plugin that crashes takes its worker with it, and no more.
-TEST(Sweep, AWorkerThatCrashesIsTold) {
+// A plugin that crashes takes its worker with it, and no more: the other runs are done, and it is told which are not.
+TEST(Sweep, ARunThatCrashesHoldsUpNoOther) {
+  const SweepFolder folder;
+  const std::string base = folder.read("world.xml");
+  folder.write("crash.xml", std::string(base).replace(base.find("</world>"), 0, "<test.crash/>"));
+  folder.write("plan.xml",
+               "<sweep seeds=\"1..3\"><vary worlds=\"crash.xml world.xml\"/><metric of=\"moved\"/></sweep>");
+  const auto outcome = folder.sweep({"plan.xml", "--out", "out", "--plugins", MUSTER_CRASH});
+  EXPECT_EQ(outcome.exit, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("a segmentation fault (SIGSEGV) in the plugin"));
+  EXPECT_THAT(outcome.err, HasSubstr("muster: warning: a worker was ended by signal 11 (Segmentation fault)"));
+  EXPECT_THAT(outcome.err, HasSubstr("3 of 6 runs are done; the same command goes on with the others"));
+  EXPECT_THAT(outcome.err, HasSubstr("seed 2 of combination 1 was left by a worker that is no more"));
+  EXPECT_EQ(folder.ask("out", "SELECT count(*) FROM run WHERE job >= 3"), 3);
+}
+
+TEST(Sweep, ACombinationWhoseMakingCrashesIsToldBeforeTheFirstRun) {
+  const SweepFolder folder;
+  const std::string base = folder.read("world.xml");
+  folder.write("world.xml", std::string(base).replace(base.find("</world>"), 0, "<test.aborts_in_create/>"));
+  folder.write_sweep();
+  const auto outcome = folder.sweep({"plan.xml", "--out", "out", "--plugins", MUSTER_ABORT});
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("an abort (SIGABRT) in the plugin"));
+  EXPECT_THAT(outcome.err, HasSubstr("muster: error: plan.xml: a combination could not be made\n"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+// What a worker was doing that is no more is done by the next.
+TEST(Sweep, AClaimOfTheDeadIsTakenOver) {
   const SweepFolder folder;
   folder.write_sweep();
   ASSERT_EQ(folder.sweep({"plan.xml", "--out", "out", "--index", "1", "--of", "12"}).exit, 0);
