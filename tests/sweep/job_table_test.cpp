@@ -81,7 +81,8 @@ TEST(JobTable, ManyProcessesDoEachJobOnce) {
   ASSERT_EQ(runs.size(), 100u);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     EXPECT_EQ(runs[i].number, static_cast<std::int64_t>(i));
-    EXPECT_THAT(runs[i].values, ElementsAre(static_cast<double>(i / 5) * 100 + static_cast<double>(i % 5 + 1)));
+    const std::size_t combination = i / 5, seed = i % 5 + 1;
+    EXPECT_THAT(runs[i].values, ElementsAre(static_cast<double>(100 * combination + seed)));
   }
   EXPECT_EQ(Database(folder.path() / JobTable::file_name).number("SELECT max(begun) FROM job"), 1);
 }

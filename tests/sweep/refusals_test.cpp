@@ -4,8 +4,6 @@
 namespace muster::test {
 namespace {
 
-using testing::HasSubstr;
-
 TEST(SweepRefusals, TellThePlaceInTheFile) {
   const SweepFolder folder;
   const std::string head = "<sweep world=\"world.xml\" seeds=\"1 2\">\n";

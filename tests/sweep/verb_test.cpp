@@ -1,6 +1,4 @@
 // What a sweep runs is what `muster run` runs, once, however it is shared.
-#include <sys/stat.h>
-
 #include <thread>
 
 #include "swept.hpp"
@@ -9,7 +7,6 @@ namespace muster::test {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 TEST(Sweep, RunsWhatASingleRunOfTheSameWordsRuns) {
   const SweepFolder folder;
