@@ -2,11 +2,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "compare_pictures.hpp"
 #include "compare_report.hpp"
 #include "divergence_file.hpp"
+#include "exchange.hpp"
 #include "ladder_run.hpp"
 #include "run_options.hpp"
 #include "text/names.hpp"
@@ -23,51 +23,15 @@ struct CompareWords : LadderWords {
   bool ladder = false;
 };
 
-// "physics=physics.simbody:integrator=rk3"
-struct Exchange {
-  std::string instance, plugin;
-  std::vector<std::string> attributes;
-};
-
 // Nothing where the word is a world's path.
-std::optional<Exchange> exchange_of(const std::string& word) {
+std::optional<Exchange> exchange_in(const std::string& word) {
   const auto equals = word.find('=');
   if (equals == std::string::npos || std::filesystem::exists(word)) return {};
-  Exchange result{word.substr(0, equals), "", {}};
-  std::istringstream parts(word.substr(equals + 1));
-  std::getline(parts, result.plugin, ':');
-  for (std::string part; std::getline(parts, part, ':');) result.attributes.push_back(part);
+  Exchange result = exchange_of(word.substr(0, equals), word.substr(equals + 1));
   if (result.instance.empty() || result.plugin.empty())
     throw Error(Exit::invalid_input,
                 "muster compare: " + quote(word) + " is neither a world nor INSTANCE=PLUGIN[:NAME=VALUE...]");
   return result;
-}
-
-// The instance keeps its name, its place among the others, and how often it steps; of its own plugin also the
-// attributes that are not given.
-void exchange(World& world, const Exchange& wanted, const Simulation& given) {
-  std::vector<std::string> names;
-  for (const auto& instance : given.instances()) names.push_back(instance->name());
-  if (std::find(names.begin(), names.end(), wanted.instance) == names.end())
-    throw Error(Exit::invalid_input, "muster compare: no instance is called " + quote(wanted.instance) + "; " +
-                                         suggest(wanted.instance, names));
-  InstanceDeclaration made = instance_of(wanted.instance, wanted.plugin, wanted.attributes, "muster compare");
-  const auto old = std::find_if(world.instances.begin(), world.instances.end(),
-                                [&](const auto& i) { return i.name == wanted.instance; });
-  if (old == world.instances.end()) return world.instances.push_back(std::move(made));  // a provider, which came last
-  const auto is_given = [&](const std::string& name) {
-    return std::any_of(wanted.attributes.begin(), wanted.attributes.end(),
-                       [&](const auto& word) { return word.starts_with(name + '='); });
-  };
-  if (!is_given("every")) made.every = old->every;
-  if (old->plugin == made.plugin) {
-    if (!is_given("library")) made.library = old->library;
-    if (!is_given("revision")) made.revision = old->revision;
-    for (const auto& attribute : old->attributes) {
-      if (!is_given(attribute.name)) made.attributes.push_back(attribute);
-    }
-  }
-  *old = std::move(made);
 }
 
 Tolerances tolerances_of(const std::vector<std::string>& words) {
@@ -91,7 +55,7 @@ class Comparison {
                   "muster compare: there is nothing to compare with; expected INSTANCE=PLUGIN or a second world");
     if (words.others.size() >= most_runs) throw Error(Exit::invalid_input, "muster compare: more than 26 runs");
     const bool all_given = std::all_of(words.others.begin(), words.others.end(),
-                                       [](const auto& word) { return exchange_of(word).has_value(); });
+                                       [](const auto& word) { return exchange_in(word).has_value(); });
     add(world_of(words.world, words), all_given ? "as given" : words.world);
     for (const auto& word : words.others) add_other(word);
     if (runs_.size() < 2) throw Error(*refused_);
@@ -141,9 +105,9 @@ class Comparison {
 
   // What cannot be run is told in the end; the others go on.
   void add_other(const std::string& word) {
-    const auto wanted = exchange_of(word);
+    const auto wanted = exchange_in(word);
     World world = world_of(wanted ? words_.world : word, words_);
-    if (wanted) exchange(world, *wanted, *runs_[0].run);
+    if (wanted) exchange(world, *wanted, instance_names(*runs_[0].run), "muster compare");
     if (world.dt != runs_[0].run->world().dt)
       throw Error(Exit::invalid_input, word + ": ticks of " + print_real(world.dt) + " s against " +
                                            print_real(runs_[0].run->world().dt) + " s; expected one dt");

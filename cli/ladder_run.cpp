@@ -3,27 +3,16 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <functional>
-#include <limits>
 
 #include "ladder.hpp"
 #include "plotting/figure.hpp"
+#include "run_metrics.hpp"
 #include "text/json.hpp"
-#include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table_writer.hpp"
 
 namespace muster::cli {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-// A number of a whole run, NaN where there is none.
-struct Metric {
-  std::string name, unit;
-  std::function<double(const Simulation& run, const Simulation& at_start)> value;
-  std::string title() const { return name + (unit.empty() ? "" : " [" + unit + ']'); }
-};
 
 struct Outcome {
   Rung rung;
@@ -32,61 +21,10 @@ struct Outcome {
   std::vector<double> values{};  // a metric
 };
 
-// How far robots got from where they began, on average.
-double moved(const Simulation& run, const Simulation& at_start) {
-  const TableView now = run.table("robot/*/pose"), before = at_start.table("robot/*/pose");
-  double sum = 0;
-  const std::size_t robots = std::min(now.rows(), before.rows());
-  for (std::size_t i = 0; i < robots; ++i) {
-    sum += std::hypot(now.at(i, 0) - before.at(i, 0), now.at(i, 1) - before.at(i, 1), now.at(i, 2) - before.at(i, 2));
-  }
-  return robots > 0 ? sum / static_cast<double>(robots) : nothing;
-}
-
-std::size_t column_of(const TableView& table, const std::string& path, const std::string& name) {
-  std::vector<std::string> valid;
-  for (std::size_t c = 0; c < table.cols(); ++c) {
-    valid.push_back(table.table->columns()[c].name);
-    if (valid.back() == name) return c;
-  }
-  throw Error(Exit::invalid_input,
-              "--metric: " + quote(path) + " has no column " + quote(name) + "; " + suggest(name, valid));
-}
-
-// Of the copies of messages that were asked for, how many arrived.
-double delivered(const Simulation& run, const Simulation&) {
-  const TableView traffic = run.table("radio/*/traffic");
-  const std::size_t asked = column_of(traffic, "radio/*/traffic", "asked");
-  const std::size_t arrived = column_of(traffic, "radio/*/traffic", "delivered");
-  double of_all = 0, sum = 0;
-  for (std::size_t i = 0; i < traffic.rows(); ++i) of_all += traffic.at(i, asked), sum += traffic.at(i, arrived);
-  return of_all > 0 ? sum / of_all : nothing;
-}
-
-// "robot/leader/pose/x": a column of a table in the end, on average over its rows.
-Metric metric_of(const std::string& word, const Simulation& given) {
-  const auto slash = word.rfind('/');
-  if (slash == std::string::npos)
-    throw Error(Exit::invalid_input,
-                "--metric " + quote(word) + ": expected TABLE/COLUMN, such as robot/leader/pose/x");
-  const std::string path = word.substr(0, slash), name = word.substr(slash + 1);
-  const TableView table = given.table(path);
-  const std::string unit = table.table->columns()[column_of(table, path, name)].unit;
-  return {word, unit, [path, name](const Simulation& run, const Simulation&) {
-            const TableView now = run.table(path);
-            const std::size_t column = column_of(now, path, name);
-            double sum = 0;
-            for (std::size_t row = 0; row < now.rows(); ++row) sum += now.at(row, column);
-            return now.rows() > 0 ? sum / static_cast<double>(now.rows()) : nothing;
-          }};
-}
-
 std::vector<Metric> metrics_of(const LadderWords& words, const Simulation& given) {
   std::vector<Metric> result;
-  for (const auto& word : words.metrics) result.push_back(metric_of(word, given));
-  if (!result.empty()) return result;
-  if (given.table("robot/*/pose").rows() > 0) result.push_back({"moved", "m", moved});
-  if (given.board().find("radio/*/traffic")) result.push_back({"delivered", "", delivered});
+  for (const auto& word : words.metrics) result.push_back(metric_of(word, given, "--metric"));
+  if (result.empty()) result = usual_metrics(given);
   if (result.empty())
     throw Error(Exit::invalid_input,
                 "muster compare --ladder: the world has neither robots nor messages; expected --metric TABLE/COLUMN");
@@ -101,15 +39,15 @@ std::unique_ptr<Simulation> made(const World& world, const LadderWords& words) {
 
 Outcome climb(Rung rung, const std::vector<Metric>& metrics, const LadderWords& words, Progress& progress, double done,
               double share) {
-  const auto run = made(rung.world, words), at_start = made(rung.world, words);
+  const auto run = made(rung.world, words);
+  const Positions at_start = robot_positions(*run);
   while (!run->done() && !interrupted()) {
     run->step();
     progress.at(done + share * run->time() / (static_cast<double>(rung.world.ticks) * rung.world.dt));
   }
   Outcome result{std::move(rung), run->time(), run->digest()};
-  for (const Metric& metric : metrics) result.values.push_back(metric.value(*run, *at_start));
+  for (const Metric& metric : metrics) result.values.push_back(metric.value(*run, at_start));
   run->close();
-  at_start->close();
   return result;
 }
 

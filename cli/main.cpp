@@ -29,6 +29,7 @@ constexpr Verb verbs[] = {
     {"check", run_check, "read a world, load and link its plugins, and say what is wrong"},
     {"swap", run_swap, "run a world and exchange an instance's plugin on the way"},
     {"compare", run_compare, "run a world with instances exchanged, or several worlds, and say what differs"},
+    {"sweep", run_sweep, "run a plan of parameters, plugins, worlds and seeds, and say what came of it"},
     {"graph", run_graph, "who reads and writes what, and the order of steps"},
     {"plugins", run_plugins, "the plugins that can be loaded"},
     {"plugin-check", run_plugin_check, "hide a cause in worlds of known truth, and see whether a diagnosis finds it"},

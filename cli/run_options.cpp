@@ -44,23 +44,46 @@ World world_of(const std::string& path, const RunOptions& words) {
 }
 
 // Attributes of the world's file that no run changes, and those that have an option of their own.
-void refuse_fixed(const World& world, const std::string& path) {
+void refuse_fixed(const World& world, const XmlAttribute& given) {
+  const std::string& path = given.name;
+  const auto refuse = [&](const std::string& expected) {
+    throw invalid(given.place, quote(path) + " is no parameter" + expected);
+  };
   const auto slash = path.rfind('/');
   const std::string name = slash == path.npos ? path : path.substr(slash + 1);
   const std::string owner = slash == path.npos ? "world" : path.substr(0, slash);
-  if (owner == "world" && (name == "until" || name == "seed"))
-    throw Error(Exit::invalid_input, "--set: " + quote(path) + " is no parameter; expected --" + name);
-  if (owner == "world" && name == "dt")
-    throw Error(Exit::invalid_input, "--set: " + quote(path) + " is no parameter; expected it in " +
-                                         world.file.string() + ", <world dt=\"...\">");
+  const bool in_file = given.place.line > 0;  // of a sweep
+  if (owner == "world" && name == "until") refuse(in_file ? "; expected until= of <sweep>" : "; expected --until");
+  if (owner == "world" && name == "seed") refuse(in_file ? "; expected seeds= of <sweep>" : "; expected --seed");
+  if (owner == "world" && name == "dt") refuse("; expected it in " + world.file.string() + ", <world dt=\"...\">");
   static const std::set<std::string> at_start = {"at", "heading", "model", "fittings", "packages", "antenna"};
   for (const RowDeclaration& row : world.rows) {
     if (row.set != "robot" || !at_start.count(name) || (owner != row.name && owner != "robot/" + row.name)) continue;
-    throw Error(Exit::invalid_input, "--set: " + quote(path) +
-                                         " is no parameter: what a robot is and where it starts "
-                                         "stand in the world's file; expected it there, at " +
-                                         row.place.text());
+    refuse(": what a robot is and where it starts stand in the world's file; expected it there, at " +
+           row.place.text());
   }
+}
+
+ParameterInfo parameter_at(const Simulation& run, const XmlAttribute& given) {
+  try {
+    return run.parameter(given.name);
+  } catch (const Error& e) {
+    if (given.place.line == 0) throw;
+    throw Error(e.exit(), given.place, e.message());
+  }
+}
+
+void set_parameter(Simulation& run, const XmlAttribute& given) {
+  refuse_fixed(run.world(), given);
+  const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
+    throw invalid(place,
+                  place.line > 0 ? "a reference cannot be varied" : "a reference cannot be set on the command line");
+  };
+  const Warn warn = [](const Place& place, const std::string& message) {
+    fmt::print(stderr, "muster: warning: {}: {}\n", place.text(), message);
+  };
+  const auto info = parameter_at(run, given);
+  run.set_parameter(given.name, attribute_values(*info.declared, 1, given, no_rows, warn).at(0));
 }
 
 void set_parameters(Simulation& run, const std::vector<std::string>& given) {
@@ -72,16 +95,7 @@ void set_parameters(Simulation& run, const std::vector<std::string>& given) {
     const std::string path = one.substr(0, equals);
     if (!seen.insert(path).second)
       throw Error(Exit::invalid_input, "--set: " + path + " is given more than once; expected one value");
-    refuse_fixed(run.world(), path);
-    const auto info = run.parameter(path);
-    const XmlAttribute attribute{path, one.substr(equals + 1), {"--set"}, {"--set"}};
-    const FindRow no_rows = [](const std::string&, const std::string&, const Place& place) -> double {
-      throw invalid(place, "a reference cannot be set on the command line");
-    };
-    const Warn warn = [](const Place& place, const std::string& message) {
-      fmt::print(stderr, "muster: warning: {}: {}\n", place.text(), message);
-    };
-    run.set_parameter(path, attribute_values(*info.declared, 1, attribute, no_rows, warn).at(0));
+    set_parameter(run, {path, one.substr(equals + 1), {"--set"}, {"--set"}});
   }
 }
 

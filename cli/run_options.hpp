@@ -26,6 +26,8 @@ double real_of(const std::string& text, const char* option);
 // The world as its file has it, with what the words say instead. Throws Error.
 World world_of(const std::string& path, const RunOptions& words);
 
+// The attribute's name is the path; its place is an option, or where a file has it. Throws Error.
+void set_parameter(Simulation& run, const XmlAttribute& given);
 // Each "PATH=VALUE". Throws Error.
 void set_parameters(Simulation& run, const std::vector<std::string>& given);
 

@@ -32,6 +32,7 @@ int run_report(const Arguments& arguments);
 int run_roadmap(const Arguments& arguments);
 int run_run(const Arguments& arguments);
 int run_schema(const Arguments& arguments);
+int run_sweep(const Arguments& arguments);
 int run_swap(const Arguments& arguments);
 
 // The help of muster_exam, which declares its options by itself. Throws Error where it cannot be started.

@@ -55,8 +55,10 @@ int lines_with_text(const std::string& text) {
 // Pages that show samples whole.
 std::vector<std::filesystem::path> pages() {
   std::vector<std::filesystem::path> result = {source / "plugin_api" / "README.md"};
-  for (const auto& entry : std::filesystem::directory_iterator(source / "docs" / "tutorials"))
-    result.push_back(entry.path());
+  for (const char* folder : {"tutorials", "how-to"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(source / "docs" / folder))
+      result.push_back(entry.path());
+  }
   return result;
 }
 

@@ -87,13 +87,16 @@ const Storeys& storeys() {
       // A run for those who watch and drive it as it goes.
       {"live", {"plugin_api", "text", "kernel", "world_file", "mcap", "run_log", "run_log/tables"}},
 
+      // Plans of many runs, and the table of them.
+      {"sweep", {"text", "plotting"}},
+
       // Shares no code with what it grades.
       {"exam", {}},
       // Clients of the bridge, one file each, for programs outside.
       {"bridge", {}},
       {"cli",
        {"plugin_api", "text", "loader", "world_file", "kernel", "roadmap", "plotting", "diagnosis/*", "viewer", "mcap",
-        "run_log", "live"}},
+        "run_log", "live", "sweep"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;

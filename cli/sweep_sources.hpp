@@ -1,0 +1,21 @@
+// What the runs of a sweep depend on: its file, its worlds and the files that these name, the plugins and the program.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "loader/library.hpp"
+#include "sweep/job_table.hpp"
+#include "sweep/sweep_file.hpp"
+
+namespace muster::cli {
+
+// `libraries`: of all plugins that any run uses.
+sweep::Sources sources_of(const sweep::SweepFile& file, const std::vector<std::filesystem::path>& libraries,
+                          const Library::SearchPath& plugins);
+
+// Throws Error where one of them is another now than it was when the table in that folder was begun.
+void expect_unchanged(const sweep::Sources& then, const sweep::SweepFile& file, const Library::SearchPath& plugins,
+                      const std::filesystem::path& folder);
+
+}  // namespace muster::cli
