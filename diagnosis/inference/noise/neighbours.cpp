@@ -1,9 +1,12 @@
 #include "diagnosis/inference/noise/neighbours.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nanoflann.hpp>
+#include <tuple>
 
 #include "diagnosis/inference/thresholds.hpp"
 #include "muster/random.hpp"
@@ -38,38 +41,59 @@ struct Grove {
   }
 };
 
-// The nearest points that `admits` accepts, ties by index; nanoflann's own result set accepts all.
+// The nearest points that `admits` accepts. Of equally near ones, as rows of one site are, any: another choice for each
+// row, as in a random order, but the same wherever they lie, so that the likelihoods of two maps differ by the maps
+// alone. nanoflann's own result set accepts all, and its search leaves out points as far as the last one.
 template <class Admits>
 class Nearest {
  public:
-  Nearest(std::size_t most, Admits admits) : most_(most), admits_(admits) {}
+  Nearest(std::size_t most, Index from, const std::vector<Index>& rows, Admits admits)
+      : most_(most), from_(static_cast<uint64_t>(from)), rows_(rows), admits_(admits) {}
 
   std::size_t size() const { return found_.size(); }
   bool full() const { return found_.size() == most_; }
-  double worstDist() const { return full() ? found_.back().first : std::numeric_limits<double>::max(); }
+  double worstDist() const {
+    constexpr double most = std::numeric_limits<double>::max();
+    return full() ? std::nextafter(found_.back().distance, most) : most;
+  }
   bool addPoint(double distance, std::size_t point) {
     if (!admits_(point)) return true;
-    const std::pair entry(distance, point);
+    const Found entry{distance, combined(from_, static_cast<uint64_t>(rows_[point])), rows_[point]};
     found_.insert(std::lower_bound(found_.begin(), found_.end(), entry), entry);
     if (found_.size() > most_) found_.pop_back();
     return true;
   }
-  const std::vector<std::pair<double, std::size_t>>& found() const { return found_; }
+  std::vector<Index> rows() const {
+    std::vector<Index> result;
+    for (const Found& each : found_) result.push_back(each.row);
+    return result;
+  }
 
  private:
+  struct Found {
+    double distance;
+    uint64_t lot;  // drawn
+    Index row;
+
+    bool operator<(const Found& other) const {
+      return std::tie(distance, lot, row) < std::tie(other.distance, other.lot, other.row);
+    }
+  };
+
   std::size_t most_;
+  uint64_t from_;
+  const std::vector<Index>& rows_;
   Admits admits_;
-  std::vector<std::pair<double, std::size_t>> found_;
+  std::vector<Found> found_;
 };
 
+// Of row `from`, which lies there.
 template <class Admits>
-std::vector<Index> search(const Grove& grove, const Eigen::VectorXd& from, int most, Admits admits) {
+std::vector<Index> search(const Grove& grove, Index from, const Eigen::VectorXd& there, int most, Admits admits) {
   if (most == 0) return {};
-  Nearest nearest(static_cast<std::size_t>(most), admits);
-  grove.tree->findNeighbors(nearest, from.data(), nanoflann::SearchParams());
-  std::vector<Index> result;
-  for (const auto& [distance, point] : nearest.found()) result.push_back(grove.cloud.rows[point]);
-  return result;
+  Nearest nearest(static_cast<std::size_t>(most), from, grove.cloud.rows, admits);
+  grove.tree->findNeighbors(nearest, there.data(), nanoflann::SearchParams());
+  return nearest.rows();
 }
 
 // At most `most` rows: `instead` at the end, and the first of the others.
@@ -121,11 +145,11 @@ std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditi
     const Grove& own = groves.at(group);
     const auto most = static_cast<std::size_t>(conditioning.same);
     std::vector<Index> near =
-        search(own, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); });
+        search(own, i, both.col(i), conditioning.same, [&](std::size_t p) { return earlier(own.cloud.rows[p]); });
     if (!sites.stream.empty()) {
       near = with_last(
           std::move(near),
-          search(own, both.col(i), conditioning.same / 2,
+          search(own, i, both.col(i), conditioning.same / 2,
                  [&](std::size_t p) {
                    const Index row = own.cloud.rows[p];
                    return sites.stream[static_cast<std::size_t>(row)] != sites.stream[static_cast<std::size_t>(i)] &&
@@ -140,7 +164,7 @@ std::vector<Index> neighbours_of(const Sites& sites, const Conditioning& conditi
       const Index row = everywhere.cloud.rows[p];
       return sites.group[static_cast<std::size_t>(row)] != group && earlier(row);
     };
-    const std::vector<Index> others = search(everywhere, sites.place.col(i), conditioning.others, other);
+    const std::vector<Index> others = search(everywhere, i, sites.place.col(i), conditioning.others, other);
     std::copy(others.begin(), others.end(), slots + conditioning.same);
   }
   return result;

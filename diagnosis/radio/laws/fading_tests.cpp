@@ -271,11 +271,18 @@ LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::sh
     test.log_p = std::log(forms) + inference::log_tail(gain / wider(*best.at(test.cause).first->part.law), 1);
     test.evidence = gain / 2 - std::log(static_cast<double>(field.size())) / 2 - std::log(forms);
   };
+  // Where no law is stated, any that could replace it belongs to the null.
+  double of_null = 0;
+  for (const auto& [cause, found] : best) {
+    if (!stated.base.law && found.first->part.law->replaces()) of_null = std::max(of_null, tests.gain(found.second));
+  }
   std::vector<LawTest> result;
   for (const auto& [cause, found] : best) {
     const auto& [family, fitted] = found;
     LawTest test{cause, {}, 0, 0, 0, fitted.law};
-    weigh(test, tests.borne_out(fitted) && !tests.rests_on_few(fitted) ? tests.gain(fitted) : 0);
+    const double beyond = family->part.law->replaces() ? 0 : of_null;
+    weigh(test,
+          tests.borne_out(fitted) && !tests.rests_on_few(fitted) ? std::max(0.0, tests.gain(fitted) - beyond) : 0);
     result.push_back(std::move(test));
   }
   std::stable_sort(result.begin(), result.end(),

@@ -80,19 +80,14 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 }  // namespace
 
 KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual,
-                               std::shared_ptr<const noise::StatedCorrelation> stated,
-                               std::vector<noise::Family> families)
+                               std::shared_ptr<const noise::StatedCorrelation> stated)
     : residual_(residual(finite_of(residual))),
-      field_(sites_of(those(readings, finite_of(residual)), std::move(stated)), conditioning),
-      families_(std::move(families)) {}
+      field_(sites_of(those(readings, finite_of(residual)), std::move(stated)), conditioning) {}
 
-KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, std::vector<noise::Family> families,
-                               double far_off)
-    : residual_(std::move(residual)), field_(std::move(field)), families_(std::move(families)), far_off_(far_off) {}
+KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far_off)
+    : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
 
-KrigedReadings KrigedReadings::untamed() const {
-  return {residual_, field_, families_, std::numeric_limits<double>::infinity()};
-}
+KrigedReadings KrigedReadings::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
 
 KrigedReadings KrigedReadings::some(Index about) const {
   constexpr Index whole = 100;  // mean readings a cell: more than a neighbourhood
@@ -106,7 +101,7 @@ KrigedReadings KrigedReadings::some(Index about) const {
   for (Index i = 0; i < size(); ++i) {
     if (cells[static_cast<std::size_t>(i)] % every == 0) chosen.push_back(i);
   }
-  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), families_, far_off_};
+  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), far_off_};
 }
 
 const ReadingView& KrigedReadings::view(const FieldShape& shape, int place) {
@@ -131,14 +126,12 @@ VectorXd KrigedReadings::error_by(const noise::Whitener& whitener) const {
 CloseReadings KrigedReadings::close_readings() const {
   // Side by side the variogram of shadowing is linear, or parabolic for a smooth field.
   const noise::Sites& sites = field_.sites();
-  const bool of_a_site = noise::fixed_share(families_.front()) > 0 || noise::fixed_share(families_.back()) > 0;
   std::vector<bool> paired(static_cast<std::size_t>(size()), false);
   std::vector<double> apart, half;
   for (Index i = 0; i < size(); ++i) {
     for (int a = 0; a < field_.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
       const Index j = field_.neighbour(i, a);
       if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
-      if (of_a_site && field_.recurring().of(i, j) != noise::Relation::stream) continue;
       const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
                                          (sites.anchor.col(i) - sites.anchor.col(j)).norm());
       if (distance > thresholds::side_by_side) break;  // neighbours are sorted by distance

@@ -35,11 +35,9 @@ struct CloseReadings {
 
 class KrigedReadings {
  public:
-  // One residual a reading; non-finite ones are left out. `families`: that the field may have; of `stated` is the
-  // stated one.
+  // One residual a reading; non-finite ones are left out.
   KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual,
-                 std::shared_ptr<const noise::StatedCorrelation> stated = nullptr,
-                 std::vector<noise::Family> families = {noise::families.begin(), noise::families.end()});
+                 std::shared_ptr<const noise::StatedCorrelation> stated = nullptr);
   // Without winsorising. An outlier then affects its neighbours' predictions. Without outliers the errors have known
   // variance, while winsorised ones vary less than under a law with rare deep fades.
   KrigedReadings untamed() const;
@@ -53,17 +51,16 @@ class KrigedReadings {
   // `place`: 1000 log_ratio. Computed once, then cached.
   const ReadingView& view(const FieldShape& shape, int place);
   const Eigen::VectorXd& residual() const { return residual_; }
-  const std::vector<noise::Family>& families() const { return families_; }
-  // Uses each reading in at most one pair; where a share is fixed at a site, pairs of one site alone.
+  std::vector<noise::Family> families() const { return field_.families(); }
+  // Uses each reading in at most one pair.
   CloseReadings close_readings() const;
 
  private:
-  KrigedReadings(Eigen::VectorXd residual, noise::Field field, std::vector<noise::Family> families, double far_off);
+  KrigedReadings(Eigen::VectorXd residual, noise::Field field, double far_off);
   Eigen::VectorXd error_by(const noise::Whitener& whitener) const;
 
   Eigen::VectorXd residual_;
   noise::Field field_;
-  std::vector<noise::Family> families_;
   double far_off_ = 4;
   std::map<std::pair<FieldShape, int>, ReadingView> known_;
 };

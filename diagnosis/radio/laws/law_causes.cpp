@@ -79,23 +79,17 @@ VectorXd drawn_anew(const LawSources& s, const LawPart& law, VectorXd residual) 
   return residual;
 }
 
-bool share_a_part(const LawSources& s) { return noise::fixed_share(s.state.fit.covariance.family) > 0; }
-
 // Reason why single readings are not testable; empty if they are.
 std::string why_not(const LawSources& s, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
+  if (noise::fixed_share(s.state.fit.covariance.family) > 0)
+    return "not testable: readings of one place share a part of their scatter, such as multipath";
   if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
     return "not testable: the two directions of a link share a part of their scatter";
   if (finite(residual) < thresholds::fewest_law_readings)
     return "not testable: fewer than 300 readings that are no bounds and farther apart than the way over which fading "
            "changes";
   return "";
-}
-
-// Reason why no law can be held against the one that the world states; empty if it can.
-std::string nothing_to_replace(const LawSources& s, const ReadingDistribution& stated) {
-  if (share_a_part(s)) return "not testable: readings of one place share a part of their scatter, such as multipath";
-  return stated.base.law ? "" : "not testable: no plugin of the world states a law of readings";
 }
 
 // The distance [m] by which links would have to be moved to change which walls they cross, up to which those readings
@@ -232,41 +226,29 @@ VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& r
   return residual;
 }
 
-// Families of correlations of the readings' field: the stated one only where the rows' field may be it; with a share
-// fixed at a site where the rows have one.
-std::vector<noise::Family> families_of(const LawSources& s) {
-  const noise::Family fitted = s.state.fit.covariance.family;
-  if (share_a_part(s)) {
-    const std::set<noise::Family> near{noise::with_less_fixed(fitted), fitted, noise::with_more_fixed(fitted)};
-    return {near.begin(), near.end()};
-  }
-  const std::vector<noise::Family> likely = s.state.likely_families(fitted);
-  std::vector<noise::Family> result(noise::families.begin(), noise::families.end());
-  if (std::any_of(likely.begin(), likely.end(), noise::is_stated)) result.insert(result.begin(), noise::Family::stated);
-  return result;
-}
-
-// Runs the tests on single readings in turn. Where the world states no law, or readings of a place share a part of
-// their draws, normal noise and every law that could replace another are the null: what adds outliers must be likelier.
+// Runs the tests on single readings in turn. Where the world states no law, normal noise and every law that could
+// replace another are the null: what adds outliers must be likelier.
 void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
-  ReadingDistribution stated = stated_law(s.model);
+  const ReadingDistribution stated = stated_law(s.model);
   const VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
-  const std::string why = why_not(s, anew), alone = why.empty() ? nothing_to_replace(s, stated) : why;
-  const auto draws_readings = [&](bool replacing) {
-    return causes_that(s, [&](const Cause& c) {
-      return c.meaning().kind == MUSTER_LAW && c.plugin->law && replaces(s, c.id) == replacing;
-    });
-  };
-  add_tested(draws_readings(false), why, found);
-  add_tested(draws_readings(true), alone, found);
-  if (!alone.empty()) add_tested(fields_of(s), alone, found);
+  const std::string why = why_not(s, anew);
+  const std::string of_stated =
+      !why.empty() || stated.base.law ? why : "not testable: no plugin of the world states a law of readings";
+  for (const bool replacing : {false, true})
+    add_tested(causes_that(s,
+                           [&](const Cause& c) {
+                             return c.meaning().kind == MUSTER_LAW && c.plugin->law && replaces(s, c.id) == replacing;
+                           }),
+               replacing ? of_stated : why, found);
+  if (!of_stated.empty()) add_tested(fields_of(s), of_stated, found);
   if (!why.empty()) return;
-  if (!alone.empty()) stated.base = {};
+  const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
+  const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
   const VectorXd residual = without_grazing(s, anew, found);
-  KrigedReadings field(s.readings, residual, s.state.field().sites().stated, families_of(s));
+  KrigedReadings field(s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr);
   const std::size_t before = found.causes.size();
   const ReadingDistribution law = add_scatter(s, stated, residual, field, found);
-  if (!alone.empty()) return;
+  if (!of_stated.empty()) return;
   add_field(s, field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }

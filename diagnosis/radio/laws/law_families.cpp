@@ -8,6 +8,8 @@ namespace {
 // Multiples of the variance of the stated law and its noise.
 constexpr double times[] = {0.2, 0.35, 0.5, 0.65, 0.78, 0.88, 1.13, 1.28, 1.5, 1.8, 2.3, 3.2, 5.0};
 constexpr double least_variance = 0.05;  // dB^2, of which multiples are tried
+// dB^2, where no law is stated: up to Rayleigh's.
+constexpr double any_variance[] = {0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 12, 20, 31};
 
 std::vector<double> strengths_of(const ReadingLaw& law, const ReadingDistribution& stated) {
   const muster_law& declared = law.declared();
@@ -16,6 +18,8 @@ std::vector<double> strengths_of(const ReadingLaw& law, const ReadingDistributio
   if (declared.grid) {
     for (double& value : result) value = law.variance(law.at_strength(law.defaults(), value), 1);
     std::sort(result.begin(), result.end());
+  } else if (!stated.base.law) {
+    result.assign(std::begin(any_variance), std::end(any_variance));
   } else {
     const double variance = std::max(base_variance(stated) + stated.noise * stated.noise, least_variance);
     for (const double f : times) result.push_back(variance * f);

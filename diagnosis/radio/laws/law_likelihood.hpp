@@ -43,7 +43,7 @@ class LawLikelihood {
 
   KrigedReadings& field() { return field_; }
   double step() const { return step_; }
-  const std::vector<noise::Family>& families() const { return field_.families(); }
+  std::vector<noise::Family> families() const { return field_.families(); }
 
  private:
   std::vector<Peak> shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from);
