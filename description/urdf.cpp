@@ -364,7 +364,6 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
   if (!is_mjcf) warn_of_doubts(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
   if (!is_mjcf) warn_of_blind_lasers(source, root, robot);
-  warn_of_sizes(source, meshes != Meshes::skip, robot);
   return robot;
 }
 

@@ -60,10 +60,6 @@ void warn_of_blind_lasers(const Source& source, const tinyxml2::XMLElement& root
 // of joints that are not there.
 void warn_of_doubts(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 
-// After all is read, of any file: warns of sizes that look like millimetres, of torque that no wheel can pass on and,
-// where the shapes have been read, of a robot that cannot stand.
-void warn_of_sizes(const Source& source, bool has_shapes, Robot& robot);
-
 // Turns joints whose axis is within a degree of an axis of the robot's frame onto it, with a warning.
 void snap_axes(const Source& source, const Outline& outline, Robot& robot);
 

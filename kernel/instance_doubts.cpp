@@ -52,13 +52,14 @@ void check_order(const muster_plugin& plugin, const std::vector<double>& values,
 }
 
 // Of a time or a rate against the ticks and the length of the run; "" where there is nothing to say.
-std::string of_time(const muster_param& declared, double value, double tick, double until) {
+// Pulses of a jammer are no matter of ticks: what is of the radio is left out there.
+std::string of_time(uint32_t phase, const muster_param& declared, double value, double tick, double until) {
   const std::string_view name = declared.name, unit = declared.unit;
   if (declared.flags & MUSTER_FREE || !(value > 0)) return "";
   if (name == "period" && unit == "s" && until > 0 && value >= plainly * until)
     return with_unit(value, declared) + " is " + print_real(std::round(value / until)) + " times the run of " +
            print_real(until) + " s, so that nothing comes twice; are these milliseconds?";
-  if (name == "period" && unit == "s" && value < tick * (1 - rounding))
+  if (name == "period" && unit == "s" && phase != MUSTER_RADIO && value < tick * (1 - rounding))
     return with_unit(value, declared) + " is less than a tick of " + print_real(tick) +
            " s, so that it is taken for one tick";
   if (name == "rate" && unit == "Hz" && value * tick > 1 + rounding)
@@ -89,7 +90,7 @@ void check_together(const muster_plugin& plugin, const std::vector<double>& valu
     const muster_param& param = plugin.params[number];
     if (param.kind != MUSTER_REAL) continue;
     const double value = values[static_cast<std::size_t>(number)];
-    std::string doubt = of_time(param, value, world.dt * static_cast<double>(declared.every), world.until());
+    std::string doubt = of_time(plugin.phase, param, value, world.dt * static_cast<double>(declared.every), world.until());
     if (given.name == "until" && value == 0) doubt = "0 s is the start of the run, so that it does nothing";
     if (!doubt.empty()) warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
   }

@@ -57,22 +57,6 @@ TEST(UrdfOfRos, RoundedAxisIsTurnedOntoTheRobots) {
   EXPECT_EQ(robot.joints[0].origin.translation(), Eigen::Vector3d(0, 1, 0));
 }
 
-TEST(UrdfOfRos, MillimetresAreDoubted) {
-  const auto base = [](const std::string& centre, const std::string& size) {
-    return "<link name='base'><inertial><origin xyz='" + centre +
-           "'/><mass value='1000'/><inertia ixx='100' ixy='0' ixz='0' iyy='100' iyz='0' izz='100'/></inertial>"
-           "<collision><geometry><box size='" + size + "'/></geometry></collision></link>\n";
-  };
-  const auto has = [](const Texts& all, const std::string& one) {
-    return std::find(all.begin(), all.end(), one) != all.end();
-  };
-  EXPECT_TRUE(has(warnings_of(base("0 0 0", "300 200 100")),
-                  "2: link 'base': a shape of 300 x 200 x 100 m; are these millimetres?"));
-  EXPECT_TRUE(has(warnings_of(base("0 0 100", "1 1 1")),
-                  "2: link 'base': its centre of mass is 99.5 m off its collision shapes; are these millimetres?"));
-  EXPECT_EQ(warnings_of(base("0 0 0", "1 1 1")), Texts());
-}
-
 TEST(UrdfOfRos, DegreesAndPerCentAreDoubted) {
   const std::string arm = link("base", mass) + link("arm", mass);
   const auto joint = [&](const std::string& origin, const std::string& limit) {

@@ -143,7 +143,7 @@ TEST_F(Table, RefusesBrokenCells) {
   EXPECT_EQ(error_in("a,b\n1,\"x\"y\n"), "d.csv:2:6: \"y\" after a quoted cell; expected ',' or the end of the line");
   EXPECT_EQ(error_in("a,b\n1,x\"y\n"),
             "d.csv:2:4: a quote inside a cell; expected the whole cell in quotes, its own quotes doubled");
-  EXPECT_EQ(error_in(std::string_view("a,b\n1,\0\n", 8)), R"(d.csv:2:3: the control character "\x00" is not allowed)");
+  EXPECT_EQ(error_in(std::string_view("a,b\n1,\0\n", 8)), R"(d.csv:2:3: the control character "\x00" is not allowed; the file is damaged, or no text)");
   EXPECT_EQ(
       error_in("# my log\na,b\n1,2\n"),
       R"(d.csv:1:1: the first line is "# my log" and no header; expected one there, such as t[s],tx,rx,rssi[dBm])");
