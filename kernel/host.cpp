@@ -8,6 +8,7 @@
 #include "instance.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 
@@ -56,16 +57,27 @@ struct Host {
     });
   }
 
-  // "robot/leader/place" and "self/place"; null for other paths and for rows that joined.
+  // "robot/leader/place", "self/place" and, of a given attribute, "self/place/ATTRIBUTE"; the world's "world/file",
+  // "world/dt" and "world/until" [s]. Null for other paths and for rows that joined.
   static const char* place_text(Instance& i, const std::string& path) {
     const auto first = path.find('/'), last = path.rfind('/');
+    const auto keep = [&](const std::string& text) { return i.texts_.emplace(path, text).first->second.c_str(); };
+    const World& world = *i.around_.world;
+    if (path == "world/file") return keep(world.file.string());
+    if (path == "world/dt") return keep(print_real(world.dt));
+    if (path == "world/until") return keep(print_real(world.until()));
+    const std::string own = "self/place/";
+    if (path.rfind(own, 0) == 0) {
+      const auto given = i.places_.find(path.substr(own.size()));
+      return given == i.places_.end() ? nullptr : keep(given->second.text());
+    }
     if (first == path.npos || path.substr(last) != "/place") return nullptr;
-    if (path == "self/place") return i.texts_.emplace(path, i.place().text()).first->second.c_str();
+    if (path == "self/place") return keep(i.place().text());
     if (first == last) return nullptr;
     const std::string set = path.substr(0, first), name = path.substr(first + 1, last - first - 1);
-    for (const auto& row : i.around_.world->rows) {
+    for (const auto& row : world.rows) {
       if (row.name == name && std::find(row.sets.begin(), row.sets.end(), set) != row.sets.end())
-        return i.texts_.emplace(path, row.place.text()).first->second.c_str();
+        return keep(row.place.text());
     }
     return nullptr;
   }

@@ -5,6 +5,7 @@
 
 #include "crash_report.hpp"
 #include "host.hpp"
+#include "instance_doubts.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -126,18 +127,21 @@ void Instance::check_attributes() {
       throw invalid(declared_.place, "<" + declared_.plugin + "> has no attribute " + quote(param.name) +
                                          ", which it needs; expected " + expectation(param));
   }
+  check_together(*plugin_, params_, declared_, *around_.world, warn);
 }
 
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);
   error_.clear();
   if (std::exchange(refused_, false)) return Error(fault, said);  // it includes its place
+  // Of a fault of the user's in the first step it says nothing that it came then: it was wrong before.
+  const bool is_early = fault == Exit::invalid_input && tick && tick->index <= 1;
   const std::string where =
       tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
   std::string words = said;  // a plugin's may have several lines; a message is one
   std::replace_if(
       words.begin(), words.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-  return Error(fault, title() + ": " + callback + " failed" + where + ": " + words);
+  return Error(fault, title() + ": " + (is_early ? "" : callback + " failed" + where + ": ") + words);
 }
 
 // Collects the rows of a queue that this claim has not seen; only those of its own row where it claims one.

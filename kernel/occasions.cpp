@@ -7,7 +7,9 @@
 
 #include "claim.hpp"
 #include "simulation.hpp"
+#include "text/doubts.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 #include "world_file/params.hpp"
 
 namespace muster {
@@ -59,6 +61,22 @@ std::size_t column_of(const Table& table, const std::string& name) {
               "the table " + table.name() + " has no column " + quote(name) + "; " + suggest(name, valid));
 }
 
+// The unit of the column that a condition looks at, which is there.
+std::string unit_of(const Simulation& run, const Condition& condition) {
+  const auto parts = parts_of(condition.path);
+  const bool is_link = parts.size() == 5 && parts[0] == "link";
+  const auto view = run.table(is_link ? "link/*/" + parts[3] : condition.path.substr(0, condition.path.rfind('/')));
+  return view.table->columns()[column_of(*view.table, parts.back())].unit;
+}
+
+// What is to be said of a path that is no parameter, but a number that plugins write; "" where it is none.
+std::string state_fault(const Simulation& run, const std::string& path) {
+  const auto view = run.find_table(path.substr(0, path.rfind('/')));
+  if (!view || view->table->columns().find(path.substr(path.rfind('/') + 1)) < 0) return "";
+  return quote(path) + " is a state, which plugins write, and no parameter; expected a parameter, such as steer/speed" +
+         (path.rfind("robot/", 0) == 0 ? ", or <leave> and a <robot> that joins at another place" : "");
+}
+
 }  // namespace
 
 // The numbers that a condition looks at: of all rows that are there where its row is a star; of a pair of radios none
@@ -67,7 +85,8 @@ std::vector<double> Simulation::looked_at(const Condition& condition) const {
   auto parts = parts_of(condition.path);
   if (parts.size() < 3)
     throw Error(Exit::invalid_input,
-                quote(condition.path) + " is no number of a table; expected one such as robot/leader/pose/x");
+                quote(condition.path) + " is no number of a table; expected one such as robot/leader/pose/x, or <at " +
+                    "t=\"SECONDS\"> for a time");
   const std::string column = parts.back();
   parts.pop_back();
   if (parts.size() == 4 && parts[0] == "link") return of_link(parts[1], parts[2], parts[3], column);
@@ -282,6 +301,7 @@ void Simulation::rehearse() {
     to = from + 1;  // of one time they happen together
     while (to < all.size() && !all[from]->when && !all[to]->when && all[to]->tick == all[from]->tick) ++to;
     const PluginChange* last = nullptr;
+    const auto before = events_.size();
     for (std::size_t i = from; i < to; ++i) {
       for (const auto& planned : all[i]->plugins) {
         at_place(planned.place, [&] { rehearse(planned, there, made); });
@@ -292,7 +312,13 @@ void Simulation::rehearse() {
       at_place(last->place, [&] {
         Linker linker(there, standard_, world_, board_);
         linker.promise(promised_);
-        linker.check();
+        try {
+          linker.check();
+        } catch (const Error& e) {  // the cause, where a swap has put one in the place of another kind
+          if (events_.size() == before) throw;
+          const std::string warning = "warning: ";
+          throw Error(e.exit(), events_[before].message.substr(warning.size()) + "; " + e.what());
+        }
       });
     for (std::size_t i = from; i < to; ++i) rehearse(*all[i], there, gone);
   }
@@ -302,9 +328,25 @@ void Simulation::rehearse() {
 
 void Simulation::rehearse(const Occasion& occasion, const std::vector<Instance*>& there, std::set<std::string>& gone) {
   if (!occasion.when) warn_of_idle(occasion, gone);
+  for (const auto& planned : occasion.rows) {
+    if (occasion.when || planned.kind != RowChange::Kind::set) continue;
+    const std::string owner = planned.path.substr(0, planned.path.rfind('/'));
+    const auto steers =
+        std::find_if(there.begin(), there.end(), [&](const Instance* each) { return each->name() == owner; });
+    if (steers == there.end() || (*steers)->bound_row() < 0) continue;
+    const std::string& robot = board_.find_set("robot")->names[static_cast<std::size_t>((*steers)->bound_row())];
+    if (gone.count(robot))
+      note("warning: " + planned.place.text() + ": robot " + quote(robot) + " is not there then, so that " +
+           quote(planned.path) + " moves nobody");
+  }
   for (const auto& planned : occasion.rows) at_place(planned.place, [&] { rehearse(planned, there); });
   if (occasion.when && !promised_.count(table_of(*occasion.when).logical()))
-    at_place(occasion.when->place, [&] { looked_at(*occasion.when); });
+    at_place(occasion.when->place, [&] {
+      const Condition& when = *occasion.when;
+      looked_at(when);
+      const std::string doubt = level_doubt(unit_of(*this, when), static_cast<Compared>(when.relation), when.value);
+      if (!doubt.empty()) note("warning: " + when.place.text() + ": attribute \"when\": " + doubt);
+    });
   if (!occasion.when && occasion.tick >= world_.ticks)
     note("warning: " + occasion.place.text() + ": " + occasion.title + " comes at the end of the run or after it");
 }
@@ -330,7 +372,8 @@ void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& t
     return;
   }
   if (found == there.end())
-    throw Error(Exit::invalid_input, "no instance is called " + quote(planned.instance) + " then");
+    throw Error(Exit::invalid_input, "no instance is called " + quote(planned.instance) +
+                                         " then; it has been removed, or comes later");
   if (planned.kind == PluginChange::Kind::remove) {
     there.erase(found);
     return;
@@ -370,6 +413,11 @@ void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>
       std::any_of(there.begin(), there.end(), [&](const Instance* each) { return each->name() == owner; });
   if (has(owner) && !is_there)
     throw Error(Exit::invalid_input, quote(owner) + " is removed by then, and has no parameters");
+  const auto all = parameters();
+  const bool is_known =
+      std::any_of(all.begin(), all.end(), [&](const ParameterInfo& each) { return each.path == planned.path; });
+  const std::string state = is_known ? "" : state_fault(*this, planned.path);
+  if (!state.empty()) throw Error(Exit::invalid_input, state);
   value_of(planned, parameter(planned.path));
 }
 

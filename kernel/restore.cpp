@@ -50,6 +50,9 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     if (found->second.params.size() != instance->params().size())
       refuse("its instance " + quote(instance->name()) + " has other parameters");
   }
+  for (const auto& [name, saved] : snapshot.instances) {
+    if (!has(name)) refuse("its instance " + quote(name) + ", a " + saved.plugin + ", is not in this one");
+  }
   for (const auto& [name, set] : board_.sets()) {
     const bool is_private = name.starts_with("instance/");  // compared as tables
     if (!is_private && !snapshot.sets.count(name)) refuse("it has no set " + quote(name));

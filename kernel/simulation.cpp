@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "instance_doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -44,6 +45,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   std::set<std::string> told;  // once what several plugins say of one file: each reads a robot's description itself
   for (const auto& instance : instances_)
     std::erase_if(instance->events, [&](const std::string& message) { return !told.insert(message).second; });
+  compare_carriers(instances_, [this](const std::string& warning) { note(warning); });
   run(0, MUSTER_SENSE, MUSTER_SENSE, 0);
   rehearse();
   look_at_conditions();

@@ -13,6 +13,7 @@ namespace muster {
 namespace {
 
 constexpr std::string_view magic = "muster.snapshot.3\n";
+constexpr std::string_view kind = "muster.snapshot.";  // of any version
 
 // A hash over words; each word is mixed before the next is added.
 class Hash {
@@ -99,9 +100,22 @@ class Reader {
     hash.add_bytes(text_.data() + magic.size(), at_ - magic.size());
     if (hash.value() != word() || at_ != text_.size()) fail();
   }
+  void expect_magic() {
+    const std::string_view all = text_;
+    if (all.substr(0, magic.size()) == magic) return void(take(magic.size()));
+    if (all.substr(0, 2) == "\x1f\x8b") refuse("is compressed by gzip; expected the file as it was before");
+    const std::string_view version = all.substr(0, all.find('\n'));
+    if (version.substr(0, kind.size()) == kind && version.size() < 2 * kind.size())
+      refuse("is of version " + quote(version.substr(kind.size())) + " of the format, and this program reads version " +
+             quote(magic.substr(kind.size(), magic.size() - kind.size() - 1)) +
+             "; expected a snapshot that this version of muster saved");
+    fail();
+  }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(Exit::invalid_input, Place{file_}, what);
+  }
   [[noreturn]] void fail() const {
-    throw Error(Exit::invalid_input, Place{file_},
-                "is not a whole snapshot; expected a file that `muster run --save` wrote");
+    refuse("is not a whole snapshot; expected a file that `muster run --save` wrote");
   }
 
  private:
@@ -181,7 +195,7 @@ Snapshot Snapshot::load(const std::filesystem::path& file) {
   if (!in || !std::filesystem::is_regular_file(file))
     throw Error(Exit::invalid_input, Place{file.string()}, "cannot be read: " + system_message(errno));
   Reader reader(std::string(std::istreambuf_iterator<char>(in), {}), file.string());
-  if (reader.take(magic.size()) != magic) reader.fail();
+  reader.expect_magic();
   Snapshot result;
   result.tick = reader.word();
   result.dt = std::bit_cast<double>(reader.word());

@@ -14,6 +14,11 @@ constexpr double turn = 6.283185307179586;   // rad
 constexpr double fastest = 6 * turn;         // rad/s; robots and their wheels turn more slowly
 constexpr double strongest = 60;             // dBm, a kilowatt; radios of robots send some 20 dBm
 constexpr double thickest = 2, longest = 3;  // m, of a wall and from a robot to its antenna
+constexpr double highest = 200;              // m, of a wall or a door
+constexpr double narrowest = 1000;           // Hz, of a jammer's or a receiver's band
+constexpr double deafest = -50;              // dBm; the lowest reading of a radio is some -100
+constexpr double globe = 1e6;                // m; bound of places, beyond which are those of UTM
+constexpr double loudest = 30;               // dBm, a watt: no link is as strong
 constexpr double degree = turn / 360;        // rad
 constexpr double centimetre = 0.01;          // m
 
@@ -43,8 +48,28 @@ std::string unit_doubt(std::string_view name, std::string_view unit, double valu
            print_real(value) + " mW are " + in_dbm(value);
   if (unit == "dBm" && name == "sensitivity" && value > 0)
     return print_real(value) + " dBm: nothing so strong arrives; is a minus missing?";
+  if (unit == "dBm" && name == "least" && value > deafest)
+    return print_real(value) + " dBm: each weaker reading, which is nearly every one, is given as it; expected some " +
+           "-100 dBm";
+  if (unit == "Hz" && name == "bandwidth" && value > 0 && value < narrowest)
+    return print_real(value) + " Hz; is this MHz? " + print_real(value) + " MHz are " + print_real(value) + "e6 Hz";
+  if (name == "duty" && value == 0) return "0: it is never on";
+  if (unit == "m" && name == "height" && value > highest) return print_real(value) + " m; is this centimetres?";
   if (unit == "m" && ((name == "thickness" && value > thickest) || (name == "antenna" && std::abs(value) > longest)))
     return print_real(value) + " m; is this centimetres?";
+  return "";
+}
+
+std::string level_doubt(std::string_view unit, Compared compared, double value) {
+  if (unit == "dBm" && value > loudest && compared != Compared::equal)
+    return print_real(value) + " dBm is above every level that arrives, so that this " +
+           (compared == Compared::below ? "always" : "never") + " holds; is a minus missing?";
+  if (unit == "rad" && std::abs(value) > turn)
+    return angle_doubt(value) + " " + print_real(value) + " degrees are " + about(value * degree) + " rad";
+  const bool is_measured = unit == "m" || unit == "rad" || unit == "dBm";
+  if (compared == Compared::equal && is_measured && value != 0)
+    return "a number in " + std::string(unit) + " is seldom exactly " + print_real(value) +
+           ", so that this may never hold; expected above or below";
   return "";
 }
 
@@ -57,6 +82,8 @@ std::string unit_hint(std::string_view unit, double value, double least, double 
     }
   }
   if (unit == "dBm" && value > most && is_within(-value, least, most)) return "; is a minus missing?";
+  if (unit == "m" && most >= globe && std::abs(value) > most)
+    return "; a place on the globe (UTM)? expected metres from an origin of your own";
   if (unit == "m/s" && value > most && is_within(value * centimetre, least, most)) return "; is this in cm/s?";
   if (unit == "rad" && std::abs(value) <= 360 && is_within(value * degree, least, most))
     return "; " + print_real(value) + " degrees are " + about(value * degree) + " rad";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 #include "names.hpp"
 
@@ -71,7 +72,11 @@ std::string why_not(std::string_view text, std::string_view kind) {
   if (text.empty()) return refusal + "; the text is empty";
   if (text.find_first_of(white_space) != text.npos) return refusal + "; it has spaces in it or around it";
   if (text.find(',') != text.npos) return refusal + "; a decimal point is written '.'";
-  if (text.find("\u2212") != text.npos) return refusal + "; its minus is the sign U+2212; expected '-'";
+  for (const auto& [sign, code] : {std::pair("\u2212", "U+2212"), {"\u2013", "U+2013"}, {"\u2014", "U+2014"}})
+    if (text.find(sign) != text.npos) return refusal + "; its minus is the sign " + code + "; expected '-'";
+  for (const auto& [blank, code] : {std::pair("\u00a0", "U+00A0"), {"\u202f", "U+202F"}, {"\u2009", "U+2009"}})
+    if (text.find(blank) != text.npos)
+      return refusal + "; a blank in it is the no-break or thin space " + code + "; expected a plain one";
   if (is_date(text)) return refusal + ", but a date; expected seconds (muster import reads dates)";
   if (text.front() == '+') return refusal + "; a positive number is written without '+'";
   if (is_hexadecimal(text)) return refusal + "; numbers are written in decimal";

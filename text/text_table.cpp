@@ -35,8 +35,31 @@ std::string conversion(const std::string& from, const std::string& to) {
     if (one.from == from && one.to == to) return ": " + std::string(one.words);
   return "";
 }
+std::string without_digits(std::string_view text) {
+  std::string result(text);
+  std::erase_if(result, [](char c) { return c >= '0' && c <= '9'; });
+  return result;
+}
 bool has_outer_space(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '\t' || text.back() == ' ' || text.back() == '\t');
+}
+
+
+// A file of another kind, by its first line: what follows in it would give misleading errors.
+void refuse_foreign(const TextFile& file, const std::string& first, std::size_t width) {
+  const auto refuse = [&](const std::string& what) { throw invalid(file.place(0), what); };
+  const std::string words = first.substr(0, first.find_last_not_of(" \t\r\n") + 1);
+  const auto separator = words.find_first_of(";\t");
+  if (width == 1 && separator != words.npos)
+    refuse("no ',' in the header; expected ',' between cells (" +
+           std::string(words[separator] == ';' ? "sed 's/,/./g; s/;/,/g' FILE makes them of ';' and decimal commas; " : "") +
+           "muster import FILE --map MAP --out FILE reads readings between ';' or tabs)");
+  if (words.starts_with('[') || words.starts_with('{'))
+    refuse("begins with '" + words.substr(0, 1) + "', as JSON does; expected a table with a header such as x[m],y[m]");
+  if (words.starts_with('<'))
+    refuse("begins with '<', as XML does; expected a table with a header such as x[m],y[m]");
+  if (words.find_first_not_of(" 0") == words.npos && file.text.substr(0, 64).find("SECTION") != words.npos)
+    refuse("begins as a DXF drawing does; expected a table with a header, such as name,x0[m],y0[m],x1[m],y1[m],material");
 }
 
 }  // namespace
@@ -68,6 +91,7 @@ void TextTable::split() {
     at = split_row(at);
     if (row_starts_.size() > 1) continue;
     width_ = cell_starts_.size();
+    refuse_foreign(file_, text.substr(0, at), width_);
     cell_starts_.reserve(std::min(lines * width_, text.size() + 1));  // a cell takes at least one byte
   }
   row_starts_.push_back(text.ends_with('\n') ? at : at + 1);  // as if the last line ended too
@@ -113,7 +137,8 @@ std::size_t TextTable::cell_end(std::size_t cell) const {
   if (at == text.size() || text[at] == ',' || text[at] == '\n' || text.compare(at, 2, "\r\n") == 0) return at;
   if (text[at] == '\r') throw invalid(file_.place(at), "the line ends in CR alone; expected LF or CRLF");
   if (is_control(text[at]))
-    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) + " is not allowed");
+    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) +
+                                       " is not allowed; the file is damaged, or no text");
   throw invalid(file_.place(at),
                 in_quotes ? quote({&text[at], 1}) + " after a quoted cell; expected ',' or the end of the line"
                           : "a quote inside a cell; expected the whole cell in quotes, its own quotes doubled");
@@ -135,11 +160,6 @@ void TextTable::fail_ragged(std::size_t found) const {
 }
 
 void TextTable::read_header() {
-  const std::string_view all = raw(0, 0);
-  if (width_ == 1 && all.find_first_of(";\t") != all.npos)
-    throw invalid(header_place(0),
-                  "no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
-                  "readings between ';' or tabs)");
   bool has_names = false;
   for (std::size_t column = 0; column < width_; ++column) has_names = has_names || !parse_real(raw(0, column));
   if (!has_names)
@@ -187,7 +207,8 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
   if (!found) {
     std::vector<std::string> names;
     for (const TextColumn& column : columns_) names.push_back(column.name);
-    const std::string near = nearest(name, names);
+    std::string near = nearest(name, names);
+    if (without_digits(near) == without_digits(name)) near.clear();  // x0 is another than x1, and not misspelt
     throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table, which has " + listed(names) +
                                        (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }

@@ -69,6 +69,13 @@ class Scan {
          "the control character " + quote({found, found + 1}) + " is not allowed");
   }
 
+  // The text as an attribute of the element around its own, or, where only the root is around, of its own.
+  std::string as_attribute(std::string_view words) const {
+    const std::string own(open_.back().name);
+    if (open_.size() < 3) return own + " NAME=\"VALUE\"";
+    return std::string(open_[open_.size() - 2].name) + ' ' + own + "=\"" + std::string(words.substr(0, 40)) + '"';
+  }
+
   // False at the end of the file.
   bool skip_to_markup() {
     skip_space();
@@ -78,9 +85,7 @@ class Scan {
     if (text_.substr(0, at_).find('<') == text_.npos)
       fail(at_, "the file begins with " + quote(words) + "; expected XML, which begins with <");
     fail(at_, "the text " + quote(words) + " stands between elements; expected elements and comments only" +
-                  (open_.size() < 2
-                       ? ""
-                       : ", and values as attributes: <" + std::string(open_.back().name) + " NAME=\"VALUE\"/>"));
+                  (open_.size() < 2 ? "" : ", and values as attributes: <" + as_attribute(words) + "/>"));
   }
 
   void scan_markup() {

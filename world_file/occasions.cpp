@@ -59,7 +59,11 @@ Condition read_condition(const XmlAttribute& given) {
       words.emplace_back();
   }
   if (words.back().empty()) words.pop_back();
-  if (words.size() != 3) throw refuse(quote(given.value) + " is no condition; expected " + a_condition);
+  const bool is_joined = std::any_of(words.begin(), words.end(),
+                                     [](const std::string& word) { return word == "and" || word == "or"; });
+  if (words.size() != 3)
+    throw refuse(quote(given.value) + " is no condition; expected " + a_condition +
+                 (is_joined ? "; one comparison in each: \"and\" and \"or\" are not known" : ""));
   static const std::vector<std::string> relations = {"below", "above", "is"};
   const auto relation = std::find(relations.begin(), relations.end(), words[1]);
   if (relation == relations.end())

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "doubts.hpp"
 #include "occasions.hpp"
 #include "params.hpp"
 #include "rows.hpp"
@@ -77,7 +78,7 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
 // What to do without an element of SDF that has no like here.
 std::string foreign_element(const std::string& name) {
   if (name == "plugin") return "; a plugin is an element of its own name, such as <physics.simbody/>";
-  if (name == "include") return "; a world is one file";
+  if (name == "include") return "; a robot is <robot model=\"...\" at=\"0 0 0\"/>, and a world is one file";
   if (name == "light" || name == "scene" || name == "gui") return "; leave it out";
   if (name == "physics" || name == "gravity") return "; the physics is a plugin, such as <physics.simbody/>";
   return "";
@@ -133,6 +134,7 @@ World read_world(const std::filesystem::path& path, const Standard& standard) {
   read_rows(root, standard, world);
   for (const auto& child : root.children) read_child(child, standard, world);
   check_names(world);
+  look_for_doubts(root, world);
   return world;
 }
 

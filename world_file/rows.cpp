@@ -10,6 +10,7 @@
 #include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/paths.hpp"
 #include "text/text_table.hpp"
 
 namespace muster {
@@ -180,7 +181,7 @@ class RowReader {
     const auto& file = *given.attribute("file");
     const auto path = world_.file.parent_path() / file.value;
     if (!std::filesystem::exists(path))
-      throw invalid(file.value_place, "attribute \"file\": there is no file " + quote(path.string()));
+      throw invalid(file.value_place, "attribute \"file\": " + no_file(path));
     files_.push_back({&element, TextTable::read(path), world_.rows.size()});
     const auto& table = files_.back().table;
     if (table.rows() == 0)

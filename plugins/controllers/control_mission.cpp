@@ -4,6 +4,7 @@
 #include <muster/plugin.hpp>
 
 #include "heading.hpp"
+#include "mission_doubts.hpp"
 #include "mission_elements.hpp"
 #include "mission_program.hpp"
 #include "own_radio.hpp"
@@ -119,6 +120,9 @@ struct ControlMission {
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
     for (const std::string& doubt : program.doubts) s.host()->event(s.host(), ("warning: " + doubt).c_str());
+    const char* robot = s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(s.param("robot")));
+    for (const std::string& doubt : doubts_of_mission(s, robot, read_file(s, "mission")))
+      s.host()->event(s.host(), ("warning: " + doubt).c_str());
     if (flies) {
       position = s.read<Position3d>("robot/{robot}/position3d");
       velocity = s.write<Velocity3d>("robot/{robot}/velocity3d");

@@ -2,6 +2,7 @@
 // answered.
 #include <muster/plugin.hpp>
 
+#include "mission_doubts.hpp"
 #include "mission_elements.hpp"
 
 namespace {
@@ -64,7 +65,10 @@ struct ControlOperator {
         radio(s.param("radio")),
         inbox(s.read<Incoming>("inbox/{radio}/message")),
         outbox(s.write<Outgoing>("outbox/{radio}/message")),
-        state(s.write<State>("self/state")) {}
+        state(s.write<State>("self/state")) {
+    for (const std::string& doubt : doubts_of_orders(s, read_file(s, "orders")))
+      s.host()->event(s.host(), ("warning: " + doubt).c_str());
+  }
 
   void step(const Step& k) const {
     State now = *k.last(state);

@@ -238,7 +238,8 @@ TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
             "world.xml:5:11: the table robot/*/pose has no column \"u\"; expected one of x, y, z, qw, qx, qy, qz");
   EXPECT_EQ(when("robot/c/pose/x above 3"), "world.xml:5:11: there is no robot \"c\"; expected one of a, b");
   EXPECT_EQ(when("pose/x is 3"),
-            "world.xml:5:11: \"pose/x\" is no number of a table; expected one such as robot/leader/pose/x");
+            "world.xml:5:11: \"pose/x\" is no number of a table; expected one such as robot/leader/pose/x, "
+            "or <at t=\"SECONDS\"> for a time");
   EXPECT_EQ(error("<at t='1' when='robot/a/pose/x above 3'/>"),
             "world.xml:5:11: <at> has t=\"...\" and when=\"...\"; expected one of them");
   EXPECT_EQ(error("<at/>"),
@@ -255,7 +256,7 @@ TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
   EXPECT_EQ(error("<at t='1'><remove instance='moves'/></at>"),
             "world.xml:5:29: no instance is called \"moves\"; expected mover; did you mean \"mover\"?");
   EXPECT_EQ(error("<at t='1'><remove instance='mover'/></at><at t='2'><remove instance='mover'/></at>"),
-            "world.xml:5:70: no instance is called \"mover\" then");
+            "world.xml:5:70: no instance is called \"mover\" then; it has been removed, or comes later");
   // Two that write one row are told before the run, too.
   EXPECT_THAT(error("<at t='1'>" + that_moves("a", "second") + "</at>"), testing::HasSubstr("robot/a/pose"));
 }

@@ -30,6 +30,33 @@ TEST(Doubts, LengthsLookLikeCentimetres) {
   EXPECT_EQ(unit_doubt("range", "m", 30), "");
 }
 
+TEST(Doubts, WhatIsPlainlyAnotherSizeIsAskedAbout) {
+  EXPECT_EQ(unit_doubt("height", "m", 270), "270 m; is this centimetres?");
+  EXPECT_EQ(unit_doubt("height", "m", 30), "");
+  EXPECT_EQ(unit_doubt("bandwidth", "Hz", 20), "20 Hz; is this MHz? 20 MHz are 20e6 Hz");
+  EXPECT_EQ(unit_doubt("bandwidth", "Hz", 2e6), "");
+  EXPECT_EQ(unit_doubt("duty", "", 0), "0: it is never on");
+  EXPECT_EQ(unit_doubt("duty", "", 0.1), "");
+  EXPECT_EQ(unit_doubt("least", "dBm", -20),
+            "-20 dBm: each weaker reading, which is nearly every one, is given as it; expected some -100 dBm");
+  EXPECT_EQ(unit_doubt("least", "dBm", -100), "");
+}
+
+TEST(Doubts, ConditionsThatNeverOrAlwaysHold) {
+  EXPECT_EQ(level_doubt("dBm", Compared::below, 60),
+            "60 dBm is above every level that arrives, so that this always holds; is a minus missing?");
+  EXPECT_EQ(level_doubt("dBm", Compared::above, 60),
+            "60 dBm is above every level that arrives, so that this never holds; is a minus missing?");
+  EXPECT_EQ(level_doubt("dBm", Compared::above, -60), "");
+  EXPECT_EQ(level_doubt("rad", Compared::above, 90),
+            "90 rad is more than a full turn; are these degrees? 90 degrees are 1.571 rad");
+  EXPECT_EQ(level_doubt("rad", Compared::above, 1.5), "");
+  EXPECT_EQ(level_doubt("m", Compared::equal, 0.1),
+            "a number in m is seldom exactly 0.1, so that this may never hold; expected above or below");
+  EXPECT_EQ(level_doubt("", Compared::equal, 1), "");
+  EXPECT_EQ(level_doubt("m", Compared::above, 0.1), "");
+}
+
 TEST(Doubts, HintsOfAnotherUnitNameWhatWouldBeWithinTheBounds) {
   EXPECT_EQ(unit_hint("Hz", 2.4, 1e6, 1e12), "; 2.4 GHz are 2.4e9 Hz");
   EXPECT_EQ(unit_hint("Hz", 1e15, 1e6, 1e12), "");

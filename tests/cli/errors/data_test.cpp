@@ -103,7 +103,8 @@ TEST(Fault25, NumbersOfAnotherCountry) {
                  ":7:1: the row has 9 or more cells; expected 8, with ',' between them and '.' in numbers");
   expect_refused(
       Data().text("\n", ";"),
-      ":1:1: no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
+      ":1:1: no ',' in the header; expected ',' between cells (sed 's/,/./g; s/;/,/g' FILE makes them of ';' and "
+      "decimal commas; muster import FILE --map MAP --out FILE reads "
       "readings between ';' or tabs)");
 }
 

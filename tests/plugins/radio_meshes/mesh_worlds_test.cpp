@@ -145,7 +145,7 @@ TEST(MeshWorld, SaysWhatIsWrong) {
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"open.obj\" material=\"stone\" kind=\"sheet\"/>"), "");
   EXPECT_EQ(
       refusal("<mesh name=\"m\" file=\"open.obj\" material=\"stone\"/>"),
-      "world.xml:5:19: meshes (radio.meshes): step failed at tick 1 (t = 0.1 s): mesh \"m\" is not closed: the edge "
+      "world.xml:5:19: meshes (radio.meshes): mesh \"m\" is not closed: the edge "
       "from 0.000 0.000 0.000 to 0.000 1.000 0.000 has 1 triangle; expected a closed surface, or kind=\"sheet\"");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"empty.stl\" material=\"stone\"/>"),
             "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"empty.stl\" is empty");
@@ -159,7 +159,7 @@ TEST(MeshWorld, SaysWhatIsWrong) {
             "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"/pillar.obj\" is outside the "
             "allowed folder; expected a path relative to .");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"pillar.obj\" material=\"stone\" scale=\"1000\"/>"),
-            "world.xml:5:19: meshes (radio.meshes): step failed at tick 1 (t = 0.1 s): mesh \"m\" reaches beyond 1 km; "
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\" reaches beyond 1 km; "
             "is its scale right?");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"pillar.obj\" material=\"granite\"/>"),
             "world.xml:3:44: no material is called \"granite\"; expected one of stone, tin");

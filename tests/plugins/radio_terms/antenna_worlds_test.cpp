@@ -155,7 +155,7 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
       "one");
   EXPECT_EQ(
       refusal("<radio.antenna pattern=\"table\" file=\"full.csv\"/>"),
-      "world.xml:4:1: radio.antenna (radio.antenna): step failed at tick 1 (t = 0.1 s): attribute \"file\": it "
+      "world.xml:4:1: radio.antenna (radio.antenna): attribute \"file\": it "
       "radiates more than it is fed: its mean gain over all directions is 3.000 dBi; expected at most 0, or 0.5 for "
       "errors of calibration");
   EXPECT_EQ(

@@ -1,0 +1,118 @@
+#include "instance_doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "text/names.hpp"
+#include "text/number.hpp"
+
+namespace muster {
+namespace {
+
+constexpr double plainly = 10;     // times beyond what is sensible
+constexpr double rounding = 1e-9;  // of a period that is meant to be one tick
+constexpr double one_carrier = 1.2;  // ratio of two channels of one band, and more
+
+// Attributes of which the first is at most the second; "min_" and "max_" stand before the name of what they bound.
+constexpr std::pair<std::string_view, std::string_view> orders[] = {
+    {"min_", "max_"}, {"slowest", "fastest"}, {"least", "most"}, {"start", "until"}};
+
+int find_param(const muster_plugin& plugin, const std::string& name) {
+  for (uint32_t i = 0; i < plugin.param_count; ++i) {
+    if (name == plugin.params[i].name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+const XmlAttribute* given_as(const InstanceDeclaration& declared, const std::string& name) {
+  const auto found = std::find_if(declared.attributes.begin(), declared.attributes.end(),
+                                  [&](const XmlAttribute& each) { return each.name == name; });
+  return found == declared.attributes.end() ? nullptr : &*found;
+}
+
+std::string with_unit(double value, const muster_param& declared) {
+  return print_real(value) + (*declared.unit ? ' ' + std::string(declared.unit) : "");
+}
+
+void check_order(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
+                 const std::string& low, const std::string& high) {
+  const int lower = find_param(plugin, low), upper = find_param(plugin, high);
+  if (lower < 0 || upper < 0) return;
+  const muster_param &first = plugin.params[lower], &second = plugin.params[upper];
+  const double least = values[static_cast<std::size_t>(lower)], most = values[static_cast<std::size_t>(upper)];
+  if (std::string_view(first.unit) != second.unit || !(least > most)) return;
+  const XmlAttribute *at_first = given_as(declared, low), *at_second = given_as(declared, high);
+  const XmlAttribute& at = at_first ? *at_first : *at_second;
+  throw invalid(at.value_place, "attribute " + quote(at.name) + ": " + low + "=\"" + print_real(least) +
+                                    "\" is above " + high + "=\"" + print_real(most) + '"' +
+                                    (at_first && at_second ? "" : ", one of them by default") + "; expected " + low +
+                                    " to be at most " + high);
+}
+
+// Of a time or a rate against the ticks and the length of the run; "" where there is nothing to say.
+// Pulses of a jammer are no matter of ticks: what is of the radio is left out there.
+std::string of_time(uint32_t phase, const muster_param& declared, double value, double tick, double until) {
+  const std::string_view name = declared.name, unit = declared.unit;
+  if (declared.flags & MUSTER_FREE || !(value > 0)) return "";
+  if (name == "period" && unit == "s" && until > 0 && value >= plainly * until)
+    return with_unit(value, declared) + " is " + print_real(std::round(value / until)) + " times the run of " +
+           print_real(until) + " s, so that nothing comes twice; are these milliseconds?";
+  if (name == "period" && unit == "s" && phase != MUSTER_RADIO && value < tick * (1 - rounding))
+    return with_unit(value, declared) + " is less than a tick of " + print_real(tick) +
+           " s, so that it is taken for one tick";
+  if (name == "rate" && unit == "Hz" && value * tick > 1 + rounding)
+    return with_unit(value, declared) + " is above the rate of the ticks, " + print_real(1 / tick) +
+           " Hz, and there is one reading a tick; expected dt=\"" + print_real(1 / value) + "\", or a lower rate";
+  return "";
+}
+
+bool is_carrier(const muster_param& declared) {
+  return std::string_view(declared.name) == "frequency" && !(declared.flags & MUSTER_FREE) &&
+         std::string_view(declared.help).rfind("carrier", 0) == 0;
+}
+
+}  // namespace
+
+void check_together(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
+                    const World& world, const Warn& warn) {
+  for (const auto& given : declared.attributes) {
+    for (const auto& [low, high] : orders) {
+      const bool is_prefix = low.back() == '_';
+      for (const auto& end : {low, high}) {
+        if (is_prefix ? given.name.rfind(end, 0) != 0 : given.name != end) continue;
+        const std::string rest = is_prefix ? given.name.substr(end.size()) : "";
+        check_order(plugin, values, declared, std::string(low) + rest, std::string(high) + rest);
+      }
+    }
+    const int number = find_param(plugin, given.name);
+    const muster_param& param = plugin.params[number];
+    if (param.kind != MUSTER_REAL) continue;
+    const double value = values[static_cast<std::size_t>(number)];
+    std::string doubt = of_time(plugin.phase, param, value, world.dt * static_cast<double>(declared.every), world.until());
+    if (given.name == "until" && value == 0) doubt = "0 s is the start of the run, so that it does nothing";
+    if (!doubt.empty()) warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
+  }
+}
+
+void compare_carriers(const std::vector<std::unique_ptr<Instance>>& instances,
+                      const std::function<void(const std::string&)>& tell) {
+  const Instance* first = nullptr;
+  double carrier = 0;
+  for (const auto& instance : instances) {
+    const int number = instance->find_param("frequency");
+    if (instance->phase() != MUSTER_RADIO || number < 0 || !is_carrier(instance->plugin().params[number])) continue;
+    const double own = instance->params()[static_cast<std::size_t>(number)];
+    if (!first) {
+      first = instance.get(), carrier = own;
+    } else if (std::max(own, carrier) > one_carrier * std::min(own, carrier)) {
+      const XmlAttribute* given = given_as(instance->declared(), "frequency");
+      tell("warning: " + (given ? given->value_place : instance->place()).text() + ": the carrier of " +
+           quote(instance->name()) + " is " + print_real(own) + " Hz, and that of " + quote(first->name()) + " (" +
+           first->place().text() + ") " + print_real(carrier) + " Hz; expected one carrier in one channel");
+    }
+  }
+}
+
+}  // namespace muster
