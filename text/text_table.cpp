@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <regex>
 #include <unordered_map>
 
+#include "file_kind.hpp"
 #include "names.hpp"
 #include "number.hpp"
 
@@ -39,6 +41,21 @@ bool has_outer_space(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '\t' || text.back() == ' ' || text.back() == '\t');
 }
 
+// Throws Error for a first line between ';' or tabs.
+void refuse_foreign(const std::string& first, const std::string& second, const Place& place) {
+  const std::size_t mark = first.find_first_of(";\t");
+  if (mark == first.npos) return;
+  const bool is_tab = first[mark] == '\t';
+  static const std::regex decimal_comma("(^|[;\t])[+-]?[0-9]+,[0-9]+");
+  const bool has_decimal_comma = std::regex_search(second, decimal_comma);
+  const std::string separator = is_tab ? "tabs" : "';'", word = is_tab ? "s/\\t/,/g" : "s/;/,/g";
+  throw invalid(place,
+                "cells stand between " + separator + (has_decimal_comma ? ", and numbers have decimal commas" : "") +
+                    "; expected ',' between cells and '.' in numbers: sed '" + (has_decimal_comma ? "s/,/./g; " : "") +
+                    word + "' FILE makes them so (readings: muster import FILE --map MAP --out FILE" +
+                    (has_decimal_comma ? ", with decimal = comma in the map)" : ")"));
+}
+
 }  // namespace
 
 TextTable TextTable::read(const std::filesystem::path& path) {
@@ -46,6 +63,9 @@ TextTable TextTable::read(const std::filesystem::path& path) {
   table.file_ = read_text_file(path, most_of_a_table);
   if (table.file_.text.empty())
     throw invalid({table.file()}, "is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
+  if (const std::string kind = file_kind(std::string_view(table.file_.text).substr(0, 256)); !kind.empty())
+    throw invalid(table.file_.place(0),
+                  "begins as " + kind + " does; expected a table: a header of names, and ',' between cells");
   table.split();
   table.read_header();
   return table;
@@ -68,6 +88,7 @@ void TextTable::split() {
     at = split_row(at);
     if (row_starts_.size() > 1) continue;
     width_ = cell_starts_.size();
+    if (width_ == 1) refuse_foreign(text.substr(0, at), text.substr(at, text.find('\n', at) - at), file_.place(0));
     cell_starts_.reserve(std::min(lines * width_, text.size() + 1));  // a cell takes at least one byte
   }
   row_starts_.push_back(text.ends_with('\n') ? at : at + 1);  // as if the last line ended too
@@ -113,7 +134,8 @@ std::size_t TextTable::cell_end(std::size_t cell) const {
   if (at == text.size() || text[at] == ',' || text[at] == '\n' || text.compare(at, 2, "\r\n") == 0) return at;
   if (text[at] == '\r') throw invalid(file_.place(at), "the line ends in CR alone; expected LF or CRLF");
   if (is_control(text[at]))
-    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) + " is not allowed");
+    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) + " is not allowed" +
+                                       (text[at] ? "" : ": the file is damaged, or no text; expected CSV in UTF-8"));
   throw invalid(file_.place(at),
                 in_quotes ? quote({&text[at], 1}) + " after a quoted cell; expected ',' or the end of the line"
                           : "a quote inside a cell; expected the whole cell in quotes, its own quotes doubled");
@@ -125,7 +147,7 @@ void TextTable::fail_ragged(std::size_t found) const {
   if (text[start] == '\n' || text[start] == '\r')
     throw invalid(file_.place(start), "the line is empty; expected a row");
   const std::string first = text.substr(0, text.find_first_of("\r\n"));
-  if (row_starts_.size() == 2 && width_ == 1 && first.find_first_of(";\t") == first.npos)
+  if (row_starts_.size() == 2 && width_ == 1)
     throw invalid(file_.place(0), "the first line is " + (first.empty() ? "empty" : quote(first)) +
                                       " and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");
   const std::string more = found > width_ ? " or more" : "";
@@ -135,11 +157,6 @@ void TextTable::fail_ragged(std::size_t found) const {
 }
 
 void TextTable::read_header() {
-  const std::string_view all = raw(0, 0);
-  if (width_ == 1 && all.find_first_of(";\t") != all.npos)
-    throw invalid(header_place(0),
-                  "no ',' in the header; expected ',' between cells (muster import FILE --map MAP --out FILE reads "
-                  "readings between ';' or tabs)");
   bool has_names = false;
   for (std::size_t column = 0; column < width_; ++column) has_names = has_names || !parse_real(raw(0, column));
   if (!has_names)
