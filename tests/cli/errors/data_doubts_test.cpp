@@ -13,7 +13,7 @@ using testing::Not;
 
 namespace {
 
-const char* const world =
+const char* const walled =
     R"(<world name="w" dt="1" until="1">
 <material name="drywall" loss="2"/>
 <wall name="south" from="-1 -4" to="21 -4" material="drywall"/>
@@ -28,9 +28,9 @@ struct Reading {
 };
 
 // What the fit says of readings along a zigzag, each changed.
-std::string said_of(const std::function<void(Reading&)>& change, const std::string& column = "") {
+std::string said_of_data(const std::function<void(Reading&)>& change, const std::string& column = "") {
   const ProgramFolder folder;
-  folder.write("world.xml", world);
+  folder.write("world.xml", walled);
   std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]" +
                      (column.empty() ? "" : "," + column) + "\n";
   for (int i = 0; i < 60; ++i) {
@@ -46,42 +46,43 @@ std::string said_of(const std::function<void(Reading&)>& change, const std::stri
 }
 
 TEST(DataDoubts, NothingIsDoubtedOfSoundData) {
-  EXPECT_THAT(said_of([](Reading&) {}), Not(HasSubstr("are th")));
+  EXPECT_THAT(said_of_data([](Reading&) {}), Not(HasSubstr("are th")));
 }
 
 TEST(DataDoubts, Centimetres) {
-  EXPECT_THAT(said_of([](Reading& r) { r.x *= 100, r.y *= 100; }), HasSubstr("are they centimetres? expected metres"));
+  EXPECT_THAT(said_of_data([](Reading& r) { r.x *= 100, r.y *= 100; }),
+              HasSubstr("are they centimetres? expected metres"));
 }
 
 TEST(DataDoubts, AnotherSite) {
-  EXPECT_THAT(said_of([](Reading& r) { r.x += 600; }),
+  EXPECT_THAT(said_of_data([](Reading& r) { r.x += 600; }),
               HasSubstr("m beside the plan of the walls, 22 x 8 m; are they of another site, or from another origin?"));
 }
 
 TEST(DataDoubts, Degrees) {
-  EXPECT_THAT(said_of([](Reading& r) { r.x = 47.3 + r.x * 1e-5, r.y = 8.5 + r.y * 1e-5; }),
+  EXPECT_THAT(said_of_data([](Reading& r) { r.x = 47.3 + r.x * 1e-5, r.y = 8.5 + r.y * 1e-5; }),
               HasSubstr("beside the plan of the walls; are these latitude and longitude?"));
 }
 
 TEST(DataDoubts, Heights) {
-  EXPECT_THAT(said_of([](Reading& r) { r.z = 400; }),
+  EXPECT_THAT(said_of_data([](Reading& r) { r.z = 400; }),
               HasSubstr("note: \"rover\" stands 400 m high, and the walls end at 2.5 m; are these millimetres?"));
 }
 
 TEST(DataDoubts, Bel) {
-  EXPECT_THAT(said_of([](Reading& r) { r.rssi /= 10; }), HasSubstr("; are these Bel? expected dBm"));
+  EXPECT_THAT(said_of_data([](Reading& r) { r.rssi /= 10; }), HasSubstr("; are these Bel? expected dBm"));
 }
 
 TEST(DataDoubts, WallsOfNoMaterial) {
   EXPECT_THAT(
-      said_of([](Reading&) {}, "walls_brick"),
+      said_of_data([](Reading&) {}, "walls_brick"),
       HasSubstr("note: column \"walls_brick\": the world has no material \"brick\"; expected one of walls_drywall"));
 }
 
 // Formerly a crash, where the world has walls of a material that no column counts.
 TEST(DataDoubts, DistancesInAWorldWithWalls) {
   const ProgramFolder folder;
-  folder.write("world.xml", world);
+  folder.write("world.xml", walled);
   std::string text = "t[s],tx,rx,distance[m],path_loss[dB]\n";
   for (int i = 0; i < 60; ++i)
     text += fmt::format("{},base,rover,{},{:.2f}\n", i, 1 + 0.3 * i,
