@@ -83,6 +83,8 @@ std::string too_many(const CLI::App& app, const std::string& word) {
     if (word.find('=') != std::string::npos && each->check_name(name))
       hint = "; did you mean " + name + " " + word.substr(word.find('=') + 1) + "?";
   }
+  if (hint.empty() && app.get_name() == "run" && word.ends_with(".xml"))
+    hint = ": run takes one world; muster compare A B runs two";
   return quote(word) + " is one word too many" + hint;
 }
 
@@ -167,6 +169,13 @@ void CommandLine::parse(const Arguments& arguments) {
     throw Helped{};
   } catch (const CLI::ExtrasError&) {
     refuse(unexpected(*app_));
+  } catch (const CLI::RequiredError& e) {
+    const std::string what = e.what(), option = what.substr(0, what.find(' '));
+    const auto words = app_->remaining();
+    if (words.size() == 1 && option.starts_with("--") && !words[0].starts_with("-"))
+      refuse(quote(words[0]) + " is one word too many, and " + option + " is missing; did you mean " + option + " " +
+             words[0] + "?");
+    refuse(what);
   } catch (const CLI::ArgumentMismatch& e) {
     const std::string what = e.what();
     const auto once = what.find(": At Most 1 required");

@@ -6,15 +6,29 @@
 
 #include "installation.hpp"
 #include "text/names.hpp"
+#include "text/near_file.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
+
+namespace {
+// For a path that is no folder.
+std::string remedy(const std::filesystem::path& path) {
+  std::error_code none;
+  if (std::filesystem::is_regular_file(path, none)) {
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    return ", but a file; expected its folder, " + quote(folder);
+  }
+  if (path.string().find(';') != std::string::npos) return "; expected folders with ':' between them";
+  return "; expected one" + near_file(path);
+}
+}  // namespace
 
 Library::SearchPath plugin_path(const std::vector<std::string>& given) {
   Library::SearchPath result;
   const auto add = [&](const std::string& folder, const char* from) {
     if (!std::filesystem::is_directory(folder))
-      throw Error(Exit::invalid_input, std::string(from) + ": " + quote(folder) + " is no folder");
+      throw Error(Exit::invalid_input, std::string(from) + ": " + quote(folder) + " is no folder" + remedy(folder));
     result.emplace_back(folder);
   };
   for (const auto& folder : given) add(folder, "--plugins");

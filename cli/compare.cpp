@@ -39,7 +39,8 @@ Tolerances tolerances_of(const std::vector<std::string>& words) {
   for (const auto& word : words) {
     const auto equals = word.rfind('=');
     if (equals == std::string::npos)
-      throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected QUANTITY=TOLERANCE");
+      throw Error(Exit::invalid_input,
+                  "--within " + quote(word) + ": expected QUANTITY=TOLERANCE, such as pose/distance=0.05");
     const double tolerance = real_of(word.substr(equals + 1), "--within");
     if (tolerance < 0) throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected a tolerance from 0");
     result[word.substr(0, equals)] = tolerance;

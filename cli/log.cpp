@@ -85,7 +85,8 @@ int log_cut(const LogVerbWords& words) {
   check_written(words, words.out);
   const mcap::Span span{time_of(words.from, "--from", 0), time_of(words.to, "--to", ~std::uint64_t{0})};
   if (span.first >= span.end)
-    throw Error(Exit::invalid_input, "--from " + words.from.value_or("0") + " is not before --to " + *words.to);
+    throw Error(Exit::invalid_input,
+                "--from " + words.from.value_or("0") + " is not before --to " + *words.to + ", which is not included");
   const LogContents contents = contents_of(words.file);
   if (contents.messages > 0 && span.first > contents.last_time)
     throw Error(Exit::invalid_input, "--from: " + words.from.value_or("0") + " s is after the end of " + words.file +

@@ -98,7 +98,9 @@ std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
   std::vector<Sender> senders;
   for (const std::string& name : wanted) {
     if (std::find(names.begin(), names.end(), name) == names.end())
-      throw Error(Exit::invalid_input, "--from: no radio is called " + quote(name) + "; " + suggest(name, names));
+      throw Error(Exit::invalid_input,
+                  "--from: no radio is called " + quote(name) + "; " + suggest(name, names) +
+                      (name.find(',') == name.npos ? "" : "; names stand between blanks, without commas"));
     const auto at = std::find_if(endpoints.begin(), endpoints.end(), [&](const Endpoint& e) {
       return names.at(static_cast<std::size_t>(e.radio)) == name;
     });
@@ -210,7 +212,7 @@ pic::Range range_of(const std::vector<double>& map) {
 int run_map(const Arguments& arguments) {
   const MapWords words = words_of(arguments);
   World world = read_world(words.world, standard());
-  const uint64_t until = ticks_of(words.at, world.dt, {"--at"});
+  const uint64_t until = tick_in_run(world, words.at, "--at");
   Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});
   Progress progress("map");
   watch_interrupt();

@@ -204,7 +204,7 @@ void print(const Json& b) {
 int run_probe(const Arguments& arguments) {
   const ProbeWords words = words_of(arguments);
   World world = read_world(words.world, standard());
-  const uint64_t until = ticks_of(words.at, world.dt, {"--at"});
+  const uint64_t until = tick_in_run(world, words.at, "--at");
   Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});
   Progress progress("probe");
   watch_interrupt();

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include "installation.hpp"
+#include "text/file_kind.hpp"
 #include "text/json.hpp"
 #include "verbs.hpp"
 #include "viewer/page.hpp"
@@ -27,6 +28,9 @@ int run_report(const Arguments& arguments) {
       .shows_default();
   line.flag("--json", json, "print the outcome as JSON");
   line.parse(arguments);
+  if (file_kind_of(folder) == "an MCAP file")
+    throw Error(Exit::invalid_input,
+                folder + ": is an MCAP file; expected a folder that `muster run WORLD --out DIR` wrote");
   if (out.empty()) out = (std::filesystem::path(folder) / "run.html").string();
   WrittenFiles files;
   std::error_code none;

@@ -28,6 +28,16 @@ double real_of(const std::string& text, const char* option) {
   return *value;
 }
 
+uint64_t tick_in_run(const World& world, double seconds, const char* option) {
+  const uint64_t tick = ticks_of(seconds, world.dt, {option});
+  const std::string end = print_real(static_cast<double>(world.ticks) * world.dt);
+  if (tick > world.ticks)
+    throw Error(Exit::invalid_input, std::string(option) + ": " + print_real(seconds) +
+                                         " s is after the end of the run at " + end + " s; expected at most " + end +
+                                         " s");
+  return tick;
+}
+
 World world_of(const std::string& path, const RunOptions& words) {
   World world = read_world(path, standard());
   if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});

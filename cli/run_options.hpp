@@ -23,6 +23,9 @@ void declare(CommandLine& line, RunOptions& words);
 // The number, or Error that names the option.
 double real_of(const std::string& text, const char* option);
 
+// The tick of that time of the world's run, or Error that names the option: where it is after the run's end.
+uint64_t tick_in_run(const World& world, double seconds, const char* option);
+
 // The world as its file has it, with what the words say instead. Throws Error.
 World world_of(const std::string& path, const RunOptions& words);
 

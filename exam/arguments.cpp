@@ -1,6 +1,8 @@
 #include "exam/arguments.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace muster::exam {
 
@@ -13,7 +15,12 @@ Arguments parsed(int argc, char** argv, const Arguments& known) {
       continue;
     }
     const auto spec = known.find(option);
-    if (spec == known.end()) throw std::invalid_argument("no option is called " + option);
+    if (spec == known.end()) {
+      std::vector<std::string> names;
+      for (const auto& [name, values] : known)
+        if (!name.empty()) names.push_back(name);
+      throw std::invalid_argument("there is no option " + option + "; " + expected(option, names));
+    }
     auto& values = result[option];
     for (std::size_t k = 0; k < spec->second.size(); ++k) {
       if (++i >= argc) throw std::invalid_argument(option + " needs " + spec->second[k]);
@@ -34,9 +41,28 @@ std::vector<std::string> listed(const std::string& text) {
   return result;
 }
 
+std::string expected(const std::string& given, const std::vector<std::string>& known) {
+  // Typing errors between both: letters lost, added or changed.
+  const auto errors = [&](const std::string& word) {
+    std::vector<std::size_t> row(word.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      std::size_t before = row[0]++;
+      for (std::size_t k = 0; k < word.size(); ++k)
+        before = std::exchange(row[k + 1], std::min({row[k] + 1, row[k + 1] + 1, before + (given[i] != word[k])}));
+    }
+    return row.back();
+  };
+  std::string result = fmt::format("expected one of {}", fmt::join(known, ", "));
+  const auto near =
+      std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) { return errors(a) < errors(b); });
+  if (near != known.end() && 3 * errors(*near) <= given.size()) result += "; did you mean \"" + *near + "\"?";
+  return result;
+}
+
 void one_of(const std::string& what, const std::string& given, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), given) == known.end())
-    throw std::invalid_argument(fmt::format("a {} is {}, not \"{}\"", what, fmt::join(known, ", "), given));
+    throw std::invalid_argument(fmt::format("{} is {}, not \"{}\"", what, fmt::join(known, ", "), given));
 }
 
 const std::string& required(const Arguments& arguments, const std::string& option) {

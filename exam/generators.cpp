@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <tuple>
 
 #include "exam/case_spec.hpp"
 #include "exam/field_survey/survey_case.hpp"
@@ -17,13 +18,13 @@ namespace {
 
 void set_sizes(Syllabus& syllabus, const Arguments& arguments) {
   if (arguments.contains("--lambda") && arguments.contains("--size"))
-    throw std::invalid_argument("--lambda and --size exclude one another");
+    throw std::invalid_argument("--lambda and --size exclude one another; expected one of them");
   if (const auto at = arguments.find("--lambda"); at != arguments.end()) {
     const std::vector<std::string> limits = listed(at->second[0]);
     if (limits.empty() || limits.size() > 2)
       throw std::invalid_argument("--lambda needs a number, or the least and the most as L,M");
-    syllabus.least_lambda = number(limits.front(), 0.1, 1e6);
-    syllabus.most_lambda = number(limits.back(), syllabus.least_lambda, 1e6);
+    syllabus.least_lambda = number("--lambda", limits.front(), 0.1, 1e6);
+    syllabus.most_lambda = number("--lambda", limits.back(), syllabus.least_lambda, 1e6);
   }
   if (const auto at = arguments.find("--size"); at != arguments.end()) {
     const std::map<std::string, std::pair<double, double>> sizes{
@@ -35,18 +36,26 @@ void set_sizes(Syllabus& syllabus, const Arguments& arguments) {
   }
 }
 
+// Two limits of the number of readings.
+std::pair<double, double> rows_in(const std::vector<std::string>& words) {
+  const double least = number("--rows", words[0], 200.0, 200000.0), most = number("--rows", words[1], 200.0, 200000.0);
+  if (least > most)
+    throw std::invalid_argument(
+        fmt::format("--rows: {} is above {}; expected the least and the most", words[0], words[1]));
+  return {least, most};
+}
+
 Syllabus syllabus_of(const Arguments& arguments) {
   Syllabus syllabus;
-  syllabus.seed = number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
+  syllabus.seed = number<std::uint64_t>("--seed", required(arguments, "--seed"), 0, ~std::uint64_t{0});
   if (const auto at = arguments.find("--mix"); at != arguments.end() && at->second[0] != "mixed")
     syllabus.kinds = listed(at->second[0]);
   const std::set<std::string> kinds{"clean", "one", "two", "three", "outside", "each"};
   for (const std::string& kind : syllabus.kinds)
     if (!kinds.contains(kind))
-      throw std::invalid_argument("a kind is clean, one, two, three, outside or each, not \"" + kind + "\"");
+      throw std::invalid_argument("--mix: a kind is clean, one, two, three, outside or each, not \"" + kind + "\"");
   if (const auto at = arguments.find("--rows"); at != arguments.end()) {
-    syllabus.least_rows = number(at->second[0], 200.0, 200000.0);
-    syllabus.most_rows = number(at->second[1], syllabus.least_rows, 200000.0);
+    std::tie(syllabus.least_rows, syllabus.most_rows) = rows_in(at->second);
   }
   if (const auto at = arguments.find("--effects"); at != arguments.end()) syllabus.effects = listed(at->second[0]);
   for (const std::string& id : syllabus.effects) recipe(id);
@@ -63,14 +72,15 @@ Syllabus syllabus_of(const Arguments& arguments) {
 }
 
 std::uint64_t seed_in(const Arguments& arguments) {
-  return number<std::uint64_t>(required(arguments, "--seed"), 0, ~std::uint64_t{0});
+  return number<std::uint64_t>("--seed", required(arguments, "--seed"), 0, ~std::uint64_t{0});
 }
 
 // Options that a generator has no use for.
 void refuse(const Arguments& arguments, const std::string& generator, const std::vector<std::string>& options) {
   for (const std::string& option : options)
     if (arguments.contains(option))
-      throw std::invalid_argument(fmt::format("{} is not for --generator {}", option, generator));
+      throw std::invalid_argument(fmt::format("{} is not for --generator {}{}", option, generator,
+                                              option == "--style" ? "; expected --generator field beside it" : ""));
 }
 
 std::vector<std::string> listed_in(const Arguments& arguments, const std::string& option, const std::string& what,
@@ -78,7 +88,7 @@ std::vector<std::string> listed_in(const Arguments& arguments, const std::string
   const auto at = arguments.find(option);
   if (at == arguments.end()) return {};
   std::vector<std::string> result = listed(at->second[0]);
-  for (const std::string& word : result) one_of(what, word, known);
+  for (const std::string& word : result) one_of(option + ": a " + what, word, known);
   return result;
 }
 
@@ -107,7 +117,7 @@ MakeOne field(const Arguments& arguments, const std::filesystem::path& out) {
   request.kinds = listed_in(arguments, "--mix", "kind", {"clean", "one", "two", "three", "four"});
   request.effects = listed_in(arguments, "--effects", "effect of the field", ids_of(survey::kinds()));
   if (const auto at = arguments.find("--style"); at != arguments.end()) {
-    one_of("style", at->second[0], survey::styles());
+    one_of("--style: a style", at->second[0], survey::styles());
     request.style = at->second[0];
   }
   return [out, request](int i) {
@@ -129,8 +139,7 @@ MakeOne simulated_runs(const Arguments& arguments, const std::filesystem::path& 
   request.least_lambda = sizes.least_lambda;
   request.most_lambda = sizes.most_lambda;
   if (const auto at = arguments.find("--rows"); at != arguments.end()) {
-    request.least_rows = number(at->second[0], 200.0, 200000.0);
-    request.most_rows = number(at->second[1], request.least_rows, 200000.0);
+    std::tie(request.least_rows, request.most_rows) = rows_in(at->second);
   }
   return [out, request](int i) {
     const simulated::Made made = simulated::make(request, i);
@@ -167,7 +176,7 @@ const Arguments& options_of_generators() {
 std::vector<std::string> effects_of_generator(const Arguments& arguments) {
   const auto at = arguments.find("--generator");
   const std::string generator = at == arguments.end() ? "drawn" : at->second[0];
-  one_of("generator with a list", generator, {"drawn", "run", "field"});
+  one_of("--generator: a generator with a list", generator, {"drawn", "run", "field"});
   if (generator == "run") return ids_of(simulated::cause_kinds());
   const auto marked = [](const char* id, bool in_vocabulary) {
     return std::string(id) + (in_vocabulary ? "" : "  (outside the vocabulary)");
@@ -181,8 +190,8 @@ std::vector<std::string> effects_of_generator(const Arguments& arguments) {
 }
 
 void make_cases(const Arguments& arguments, const std::filesystem::path& out, bool keep) {
-  const int cases = number(required(arguments, "--cases"), 1, 1000000);
-  const int first = arguments.contains("--first") ? number(arguments.at("--first")[0], 1, 1000000) : 1;
+  const int cases = number("--cases", required(arguments, "--cases"), 1, 1000000);
+  const int first = arguments.contains("--first") ? number("--first", arguments.at("--first")[0], 1, 1000000) : 1;
   const auto at = arguments.find("--generator");
   const std::string generator = at == arguments.end() ? "drawn" : at->second[0];
   const MakeOne make_one = generator == "drawn"   ? drawn(arguments, out)

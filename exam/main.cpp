@@ -78,7 +78,8 @@ int run(int argc, char** argv) {
   RunOrder order{given->second[0], reports_of(arguments, given->second[0]), "", 1};
   if (const auto at = arguments.find("--command"); at != arguments.end()) order.command = at->second[0];
   if (order.command.empty()) order.command = default_command();
-  if (const auto at = arguments.find("--jobs"); at != arguments.end()) order.jobs = number(at->second[0], 1, 1000);
+  if (const auto at = arguments.find("--jobs"); at != arguments.end())
+    order.jobs = number("--jobs", at->second[0], 1, 1000);
   const RunOutcome outcome = run_cases(order);
   fmt::print("{} cases run, {} had a report, {} failed\n", outcome.ran, outcome.kept, outcome.failed.size());
   for (const std::string& words : outcome.failed) fmt::print("{}\n", words);
@@ -124,8 +125,13 @@ int main(int argc, char** argv) {
     if (verb == "grade") return run_grade(argc, argv);
     if (verb == "follow") return follow(argc, argv);
     if (verb == "effects") return list_effects(argc, argv);
+    if (verb != "--help") {
+      fmt::print(stderr, "muster_exam: there is no \"{}\"; {}\n", verb,
+                 expected(verb, {"make", "run", "grade", "follow", "effects"}));
+      return 2;
+    }
     fmt::print("{}", usage);
-    return verb == "--help" ? 0 : 2;
+    return 0;
   } catch (const std::invalid_argument& e) {
     fmt::print(stderr, "muster_exam {}: {}\n", verb, e.what());
     return 2;

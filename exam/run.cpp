@@ -45,10 +45,13 @@ std::string first_line(const fs::path& file) {
 }
 
 std::vector<fs::path> cases_in(const fs::path& exam) {
+  if (!fs::is_directory(exam))
+    throw std::invalid_argument(exam.string() + ": there is no such folder; expected one that muster exam make wrote");
   std::vector<fs::path> result;
   for (const auto& entry : fs::directory_iterator(exam))
     if (entry.is_directory() && entry.path().filename().string().rfind("case_", 0) == 0) result.push_back(entry.path());
-  if (result.empty()) throw std::runtime_error("no folder case_... in " + exam.string());
+  if (result.empty())
+    throw std::invalid_argument(exam.string() + ": has no folder case_...; expected one that muster exam make wrote");
   std::sort(result.begin(), result.end());
   return result;
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "text/error.hpp"
+#include "text/file_kind.hpp"
 #include "text/names.hpp"
 #include "text/text_file.hpp"
 #include "zstandard.hpp"
@@ -93,6 +94,13 @@ class Scanner {
     file_.read(0, std::min<std::uint64_t>(file_.size(), magic.size()), body_);
     if (body_ == magic) return;
     const bool is_cut = body_.size() < magic.size() && magic.starts_with(body_);
+    const std::string kind = file_kind_of(path_.string());
+    if (!is_cut && kind == "a bag of ROS 2 in SQLite")
+      throw invalid({path_.string()}, "is " + kind + "; expected MCAP, which ros2 bag convert makes of it");
+    if (!is_cut && kind == "a bag of ROS 1")
+      throw invalid({path_.string()}, "is " + kind + "; expected MCAP: mcap convert " + path_.string() + " OUT.mcap");
+    if (!is_cut && path_.extension() == ".csv")
+      throw invalid({path_.string()}, "is a table already; expected an MCAP file, as muster run --mcap writes");
     throw invalid(
         {path_.string()},
         std::string("byte 0: ") + (is_cut ? "the file ends before its first record"

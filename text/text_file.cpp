@@ -10,6 +10,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "file_kind.hpp"
+#include "near_file.hpp"
+
 namespace muster {
 namespace {
 
@@ -30,7 +33,7 @@ class Descriptor {
 };
 
 [[noreturn]] void fail_system(const Place& place, int error_number) {
-  if (error_number == ENOENT || error_number == ENOTDIR) throw invalid(place, "no such file");
+  if (error_number == ENOENT || error_number == ENOTDIR) throw invalid(place, "no such file" + near_file(place.file));
   throw Error(Exit::io, place, "cannot be read: " + system_message(error_number));
 }
 
@@ -116,6 +119,9 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   const Place place{result.file};
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw invalid(place, "is UTF-16; expected UTF-8");
   if (text.starts_with("\x1F\x8B")) throw invalid(place, "is compressed by gzip; expected plain text");
+  if (const std::string kind = file_kind(text.substr(0, 256));
+      kind == "an MCAP file" || kind == "a bag of ROS 2 in SQLite" || kind == "a bag of ROS 1")
+    throw invalid(place, "is " + kind + "; expected plain text");
   if (text.starts_with("PK\x03"))
     throw invalid(place, "is a ZIP archive, as .xlsx and .ods are; expected plain text, such as CSV in UTF-8");
   std::size_t skipped = 0;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <regex>
 #include <unordered_map>
 
+#include "file_kind.hpp"
 #include "names.hpp"
 #include "number.hpp"
 
@@ -35,31 +37,23 @@ std::string conversion(const std::string& from, const std::string& to) {
     if (one.from == from && one.to == to) return ": " + std::string(one.words);
   return "";
 }
-std::string without_digits(std::string_view text) {
-  std::string result(text);
-  std::erase_if(result, [](char c) { return c >= '0' && c <= '9'; });
-  return result;
-}
 bool has_outer_space(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '\t' || text.back() == ' ' || text.back() == '\t');
 }
 
-
-// A file of another kind, by its first line: what follows in it would give misleading errors.
-void refuse_foreign(const TextFile& file, const std::string& first, std::size_t width) {
-  const auto refuse = [&](const std::string& what) { throw invalid(file.place(0), what); };
-  const std::string words = first.substr(0, first.find_last_not_of(" \t\r\n") + 1);
-  const auto separator = words.find_first_of(";\t");
-  if (width == 1 && separator != words.npos)
-    refuse("no ',' in the header; expected ',' between cells (" +
-           std::string(words[separator] == ';' ? "sed 's/,/./g; s/;/,/g' FILE makes them of ';' and decimal commas; " : "") +
-           "muster import FILE --map MAP --out FILE reads readings between ';' or tabs)");
-  if (words.starts_with('[') || words.starts_with('{'))
-    refuse("begins with '" + words.substr(0, 1) + "', as JSON does; expected a table with a header such as x[m],y[m]");
-  if (words.starts_with('<'))
-    refuse("begins with '<', as XML does; expected a table with a header such as x[m],y[m]");
-  if (words.find_first_not_of(" 0") == words.npos && file.text.substr(0, 64).find("SECTION") != words.npos)
-    refuse("begins as a DXF drawing does; expected a table with a header, such as name,x0[m],y0[m],x1[m],y1[m],material");
+// Throws Error for a first line between ';' or tabs.
+void refuse_foreign(const std::string& first, const std::string& second, const Place& place) {
+  const std::size_t mark = first.find_first_of(";\t");
+  if (mark == first.npos) return;
+  const bool is_tab = first[mark] == '\t';
+  static const std::regex decimal_comma("(^|[;\t])[+-]?[0-9]+,[0-9]+");
+  const bool has_decimal_comma = std::regex_search(second, decimal_comma);
+  const std::string separator = is_tab ? "tabs" : "';'", word = is_tab ? "s/\\t/,/g" : "s/;/,/g";
+  throw invalid(place,
+                "cells stand between " + separator + (has_decimal_comma ? ", and numbers have decimal commas" : "") +
+                    "; expected ',' between cells and '.' in numbers: sed '" + (has_decimal_comma ? "s/,/./g; " : "") +
+                    word + "' FILE makes them so (readings: muster import FILE --map MAP --out FILE" +
+                    (has_decimal_comma ? ", with decimal = comma in the map)" : ")"));
 }
 
 }  // namespace
@@ -69,6 +63,9 @@ TextTable TextTable::read(const std::filesystem::path& path) {
   table.file_ = read_text_file(path, most_of_a_table);
   if (table.file_.text.empty())
     throw invalid({table.file()}, "is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
+  if (const std::string kind = file_kind(std::string_view(table.file_.text).substr(0, 256)); !kind.empty())
+    throw invalid(table.file_.place(0),
+                  "begins as " + kind + " does; expected a table: a header of names, and ',' between cells");
   table.split();
   table.read_header();
   return table;
@@ -91,7 +88,7 @@ void TextTable::split() {
     at = split_row(at);
     if (row_starts_.size() > 1) continue;
     width_ = cell_starts_.size();
-    refuse_foreign(file_, text.substr(0, at), width_);
+    if (width_ == 1) refuse_foreign(text.substr(0, at), text.substr(at, text.find('\n', at) - at), file_.place(0));
     cell_starts_.reserve(std::min(lines * width_, text.size() + 1));  // a cell takes at least one byte
   }
   row_starts_.push_back(text.ends_with('\n') ? at : at + 1);  // as if the last line ended too
@@ -137,8 +134,8 @@ std::size_t TextTable::cell_end(std::size_t cell) const {
   if (at == text.size() || text[at] == ',' || text[at] == '\n' || text.compare(at, 2, "\r\n") == 0) return at;
   if (text[at] == '\r') throw invalid(file_.place(at), "the line ends in CR alone; expected LF or CRLF");
   if (is_control(text[at]))
-    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) +
-                                       " is not allowed; the file is damaged, or no text");
+    throw invalid(file_.place(at), "the control character " + quote({&text[at], 1}) + " is not allowed" +
+                                       (text[at] ? "" : ": the file is damaged, or no text; expected CSV in UTF-8"));
   throw invalid(file_.place(at),
                 in_quotes ? quote({&text[at], 1}) + " after a quoted cell; expected ',' or the end of the line"
                           : "a quote inside a cell; expected the whole cell in quotes, its own quotes doubled");
@@ -150,7 +147,7 @@ void TextTable::fail_ragged(std::size_t found) const {
   if (text[start] == '\n' || text[start] == '\r')
     throw invalid(file_.place(start), "the line is empty; expected a row");
   const std::string first = text.substr(0, text.find_first_of("\r\n"));
-  if (row_starts_.size() == 2 && width_ == 1 && first.find_first_of(";\t") == first.npos)
+  if (row_starts_.size() == 2 && width_ == 1)
     throw invalid(file_.place(0), "the first line is " + (first.empty() ? "empty" : quote(first)) +
                                       " and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");
   const std::string more = found > width_ ? " or more" : "";
@@ -207,8 +204,7 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
   if (!found) {
     std::vector<std::string> names;
     for (const TextColumn& column : columns_) names.push_back(column.name);
-    std::string near = nearest(name, names);
-    if (without_digits(near) == without_digits(name)) near.clear();  // x0 is another than x1, and not misspelt
+    const std::string near = nearest(name, names);
     throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table, which has " + listed(names) +
                                        (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }

@@ -7,6 +7,7 @@
 
 #include "diagnosis/data/clock.hpp"
 #include "diagnosis/data/dataset_checks.hpp"
+#include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -15,13 +16,23 @@ namespace {
 
 constexpr std::size_t most_rows = 2'000'000;  // a fit holds about 1.6 kB a row
 
+// A column that readings must have. Where it is missing, tables of others are what the user most often has.
+std::size_t needed(const TextTable& table, const std::string& name, const std::string& unit) {
+  try {
+    return table.require(name, unit);
+  } catch (const Error& error) {
+    if (table.find(name)) throw;
+    throw Error(error.exit(), error.place(), error.message() + "; muster import FILE --map MAP renames columns");
+  }
+}
+
 std::vector<double> reals_if_any(const TextTable& table, const std::string& name, const std::string& unit) {
   if (!table.find(name)) return {};
   return table.reals(table.require(name, unit));
 }
 
 std::vector<Point> places(const TextTable& table, const std::string& end) {
-  const auto x = table.reals(table.require(end + "_x", "m")), y = table.reals(table.require(end + "_y", "m"));
+  const auto x = table.reals(needed(table, end + "_x", "m")), y = table.reals(needed(table, end + "_y", "m"));
   const auto z = reals_if_any(table, end + "_z", "m");
   std::vector<Point> result(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) result[i] = {x[i], y[i], z.empty() ? std::nan("") : z[i]};
@@ -79,6 +90,19 @@ void refuse_degrees(const TextTable& table) {
   }
 }
 
+// Notes distances from which no law can be told, or that are kilometres.
+void note_distances(Dataset& data, const std::vector<double>& distance) {
+  if (distance.empty()) return;
+  const auto [low, high] = std::minmax_element(distance.begin(), distance.end());
+  const std::string is_short = *high < thresholds::shortest_range ? "; are these kilometres? expected metres" : "";
+  const std::string column = "column \"distance[m]\" ";
+  if (*low == *high)
+    data.notes.push_back(column + "is " + print_real(*low) +
+                         " m in all rows, so that the exponent n cannot be told from the loss l0" + is_short);
+  else if (!is_short.empty())
+    data.notes.push_back(column + "goes from " + print_real(*low) + " to " + print_real(*high) + " m" + is_short);
+}
+
 // Reads places, or distances if there are none.
 void read_places(Dataset& data) {
   const TextTable& table = *data.table;
@@ -91,6 +115,7 @@ void read_places(Dataset& data) {
                                                     print_real(distance[row]) + " m; expected more than 0 m");
     }
     data.notes.push_back("no places, only distances: nothing can be said of places, bearings and rooms");
+    note_distances(data, distance);
     return;
   }
   refuse_degrees(table);
@@ -116,7 +141,7 @@ void read_readings(Dataset& data) {
   const TextTable& table = *data.table;
   const bool loss = table.find("path_loss") && !table.find("rssi");
   data.reading = loss ? "path_loss" : "rssi";
-  data.rssi = table.reals(table.require(data.reading, loss ? "dB" : "dBm"), {.empty = true});
+  data.rssi = table.reals(needed(table, data.reading, loss ? "dB" : "dBm"), {.empty = true});
   if (!loss) return;
   for (double& v : data.rssi) v = -v;
   data.notes.push_back("path_loss[dB] is read as the level of what was sent with 0 dBm");
@@ -151,8 +176,8 @@ Dataset read_dataset(std::shared_ptr<const TextTable> read) {
                                       std::to_string((table.rows() + most_rows - 1) / most_rows) +
                                       ", or a part of the time");
   refuse_other_tables(table);
-  data.tx = table.texts(table.require("tx", ""));
-  data.rx = table.texts(table.require("rx", ""));
+  data.tx = table.texts(needed(table, "tx", ""));
+  data.rx = table.texts(needed(table, "rx", ""));
   read_places(data);
   read_readings(data);
   data.t = reals_if_any(table, "t", "s");

@@ -23,6 +23,20 @@ Place at(const Dataset& data, std::size_t row, const std::string& column) {
   return data.table->place(row, data.table->find(column).value());
 }
 
+// What levels above 0 may be, where all that are heard look like it: an unsigned byte, or per cent.
+std::string other_scale(const Dataset& data) {
+  double low = 1e300, high = -1e300;
+  for (const double v : data.rssi) {
+    if (std::isnan(v)) continue;
+    if (v != std::round(v)) return "";
+    low = std::min(low, v), high = std::max(high, v);
+  }
+  if (low >= 128 && high <= 255)
+    return "; whole numbers from 128 to 255 are an unsigned byte: rssi[dBm] = 1*COLUMN - 256";
+  if (low >= 0 && high <= 100 && high > low) return "; a quality in per cent is no level";
+  return "";
+}
+
 // Throws Error if most levels are above 0 dBm: milliwatts, or a lost sign.
 void check_scale(const Dataset& data) {
   const auto is_above = [](double v) { return v > 0; };
@@ -40,7 +54,8 @@ void check_scale(const Dataset& data) {
                 row_text(row) + ": " + print_real(v) +
                     " dBm, and most readings are above 0 dBm, as milliwatts or levels without their sign are; "
                     "expected dBm, 10 log10 of milliwatts (a map of muster import: rssi[dBm] = 10*log10(COLUMN), "
-                    "or rssi[dBm] = -1*COLUMN)");
+                    "or rssi[dBm] = -1*COLUMN)" +
+                    other_scale(data));
 }
 
 // Empties readings at a mark that stands apart from all other levels.
@@ -74,8 +89,16 @@ void check_rssi(const Dataset& data) {
                                     : "an rssi of " + print_real(v) + " dBm ";
       return invalid(at(data, row, data.reading), row_text(row) + ": " + what + why);
     };
-    if (v > thresholds::strongest_level)
-      throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative");
+    if (v > thresholds::strongest_level) {
+      const auto alike = std::count(data.rssi.begin(), data.rssi.end(), v);
+      const std::string text = print_real(data.reading == "path_loss" ? -v : v);
+      throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative" +
+                   (alike < 2 ? ""
+                              : "; " + std::to_string(alike) + " rows have it: is " + text +
+                                    " a mark for nothing received? then leave these cells empty (in a map of muster "
+                                    "import: none " +
+                                    data.reading + " = " + text + ")"));
+    }
     if (v < thresholds::weakest_level) throw refuse("is below thermal noise; expected a level in dBm");
   }
 }
@@ -95,6 +118,29 @@ void find_wild_stamps(Dataset& data) {
                          " s lies far outside all other times; the row is left out of all tests in time");
 }
 
+// True if the rows from `row` on repeat those from the first on, as where a log is joined to itself.
+bool is_joined_to_itself(const Dataset& data, std::size_t row) {
+  if (row < 2 || data.rows() < row + 2) return false;
+  for (std::size_t k = 0; k < row && row + k < data.rows(); ++k) {
+    const double a = data.rssi[k], b = data.rssi[row + k];
+    if (data.t[k] != data.t[row + k] || data.pair(k) != data.pair(row + k) ||
+        !(a == b || (std::isnan(a) && std::isnan(b))))
+      return false;
+  }
+  return true;
+}
+
+// Throws Error where the times say that the table is no log: one time for all rows, or the same rows again.
+void refuse_copies(const Dataset& data, std::size_t row) {
+  if (std::all_of(data.t.begin(), data.t.end(), [&](double t) { return t == data.t[0]; }))
+    throw invalid(at(data, 0, "t"), "t is " + print_real(data.t[0]) +
+                                        " s in all rows; expected the time of each reading, or no column t[s]");
+  if (is_joined_to_itself(data, row))
+    throw invalid(at(data, row, "t"),
+                  "rows " + std::to_string(row + 1) + " to " + std::to_string(std::min(2 * row, data.rows())) +
+                      " repeat rows 1 and following: the log is joined to itself; expected it once");
+}
+
 // One pass in file order finds both faults: time of a pair may repeat only if (t, tx, rx) does not.
 void check_times(const Dataset& data) {
   if (data.t.empty()) return;
@@ -105,6 +151,7 @@ void check_times(const Dataset& data) {
     const auto [entry, is_first] = last.emplace(pair, row);
     if (!is_first) {
       const std::size_t before = entry->second;
+      if (data.t[row] <= data.t[before]) refuse_copies(data, row);
       const std::string who = data.pair(row) + " at t = " + print_real(data.t[row]) + " s";
       if (data.t[row] == data.t[before])
         throw invalid(at(data, row, "t"),

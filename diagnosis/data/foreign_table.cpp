@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "text/file_kind.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_file.hpp"
@@ -40,6 +41,19 @@ void refuse_control_characters(std::string_view line, const Place& place) {
                 "the control character " + quote({&*found, 1}) + " is not allowed");
 }
 
+// For a rule that is meant as a number or a formula, and is read as the name of a column.
+std::string why_no_column(const std::string& rule) {
+  if (rule.find_first_of("/()*") != rule.npos)
+    return ", and it is no rule; expected SCALE*COLUMN + OFFSET, such as 0.001*ms + 0.5";
+  if (rule.empty() || rule.find_first_of("0123456789") > 1) return "";
+  std::string point = rule;
+  std::replace(point.begin(), point.end(), ',', '.');
+  if (parse_real(point)) return ", and it is no number: a decimal point is written '.'";
+  if (parse_real(rule.substr(0, rule.find(' '))))
+    return ", and it is no number: units stand in the column's own name alone, as in tx_x[m]";
+  return "";
+}
+
 std::string name_of(char separator) {
   if (separator == ' ') return "blanks";
   return separator == '\t' ? "tabs" : std::string("'") + separator + "'";
@@ -49,12 +63,21 @@ std::string name_of(char separator) {
 
 ForeignTable ForeignTable::read(const std::filesystem::path& path, const TableShape& shape) {
   TextFile source = read_text_file(path, most_bytes);
+  if (const std::string kind = file_kind(std::string_view(source.text).substr(0, 256));
+      !kind.empty() && shape.header_line == 0)
+    throw invalid({source.file, 1, 1}, "begins as " + kind + " does; expected a table with a header of names");
   ForeignTable table;
   table.file_ = source.file;
   table.shape_ = shape;
   table.source_ = std::make_shared<const std::string>(std::move(source.text));
   table.unquoted_ = std::make_shared<std::deque<std::string>>();
   const std::vector<Line> lines = table.lines_of_table();
+  if (lines.empty() && shape.header_line > 0)
+    throw invalid({table.file_}, "has no line " + std::to_string(shape.header_line) +
+                                     ", where the map has its header (header = line " +
+                                     std::to_string(shape.header_line) + "); it has " +
+                                     std::to_string(std::count(table.source_->begin(), table.source_->end(), '\n')) +
+                                     " lines");
   if (lines.empty()) throw invalid({table.file_}, shape.has_header ? "is empty; expected a header" : "has no rows");
   for (std::size_t k = table.take_header(lines); k < lines.size(); ++k) table.add_row(lines[k]);
   if (table.cells_.empty()) throw invalid({table.file_}, "has no rows below its header");
@@ -221,7 +244,8 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end()) {
     if (const std::size_t number = number_in(column); number > 0 && number <= columns_.size()) return number - 1;
-    throw invalid(for_whom, file_ + " has no column " + quote(column) + "; " + suggest(column, columns_));
+    throw invalid(for_whom,
+                  file_ + " has no column " + quote(column) + why_no_column(column) + "; " + suggest(column, columns_));
   }
   const auto first = static_cast<std::size_t>(found - columns_.begin());
   if (const auto again = std::find(found + 1, columns_.end(), column); again != columns_.end())

@@ -1,6 +1,7 @@
 #include "diagnosis/data/import_map.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "text/names.hpp"
@@ -39,6 +40,8 @@ NumberRule number_rule(std::string text, const Place& place) {
   for (const char* sign : {" + ", " - "}) {
     const std::size_t at = text.find(sign);
     if (at == text.npos) continue;
+    if (text.back() == ')' && text.find('(') < at && text.rfind("log10(", 0) != 0)
+      throw invalid(place, quote(text) + " has parentheses; expected SCALE*COLUMN + OFFSET, such as 0.01*x_cm + 0.05");
     rule.offset = number_of(trimmed(text.substr(at + 3)), place) * (sign[1] == '-' ? -1 : 1);
     text = trimmed(text.substr(0, at));
     break;
@@ -82,6 +85,15 @@ GlobeRule globe_rule(const std::string& word, const std::vector<std::string>& co
                   "expected " + word +
                       (rule.axis == 2 ? " LATITUDE LONGITUDE ALTITUDE" : " LATITUDE LONGITUDE, and perhaps ALTITUDE") +
                       ", the names of columns");
+  const auto begins = [](const std::string& column, std::string_view with) {
+    const std::string name = column_reference(column).column;
+    return name.size() >= with.size() && std::equal(with.begin(), with.end(), name.begin(), [](char a, char b) {
+             return a == std::tolower(static_cast<unsigned char>(b));
+           });
+  };
+  if ((begins(columns[0], "lon") || begins(columns[0], "lng")) && begins(columns[1], "lat"))
+    throw invalid(place, quote(columns[0]) + " stands where the latitude does; expected " + word + " " + columns[1] +
+                             " " + columns[0] + ": the latitude first");
   rule.latitude = column_reference(columns[0]);
   rule.longitude = column_reference(columns[1]);
   if (columns.size() == most) rule.altitude = column_reference(columns[2]);
@@ -140,6 +152,9 @@ class Reader {
   }
 
   void read_none(const std::string& column, const std::string& right) {
+    if (right.find(',') != right.npos && right.find(' ') != right.npos)
+      throw invalid(place_, quote(right) + ": values stand between blanks, without commas; expected none " + column +
+                                " = 0 -128");
     for (const auto& word : words_of(right)) map_.none[column].push_back(number_of(word, place_));
   }
 

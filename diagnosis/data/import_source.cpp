@@ -76,8 +76,13 @@ std::size_t ImportSource::side_row(const std::string& name, const SourceRow& at,
       if (table.text(r, column) == key) entry->second = r;
     }
   }
-  if (entry->second == table.rows())
-    throw invalid(rule, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key));
+  if (entry->second == table.rows()) {
+    std::vector<std::string> keys;
+    const std::size_t column = column_of(table, side.key, rule);
+    for (std::size_t r = 0; r < table.rows(); ++r) keys.emplace_back(table.text(r, column));
+    throw invalid(rule, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key) + ", as in line " +
+                            std::to_string(place(at).line) + " of " + place(at).file + "; " + suggest(key, keys));
+  }
   return entry->second;
 }
 

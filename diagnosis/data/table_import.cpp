@@ -168,17 +168,22 @@ class Importer {
     const auto cell = source_.number(number.from, at, value, rule.place, advice);
     if (!cell || is_none(rule.column.name, *cell)) return std::nan("");
     if (number.logarithm && *cell <= 0)
-      throw invalid(source_.place(at), "column " + quote(source_.filled(number.from.column, at, value)) + ": " +
-                                           print_real(*cell) + " has no logarithm; expected a power above 0 (none " +
-                                           rule.column.name + " = " + print_real(*cell) +
-                                           " in the map makes such cells empty)");
+      throw invalid(source_.place(at),
+                    "column " + quote(source_.filled(number.from.column, at, value)) + ": " + print_real(*cell) +
+                        " has no logarithm; expected a power above 0 (none " + rule.column.name + " = " +
+                        print_real(*cell) + " in the map makes such cells empty)" +
+                        (*cell < 0 && *cell > -200 && rule.column.unit == "dBm"
+                             ? "; is it dBm already? then " + rule.column.label() + " = " + number.from.column
+                             : ""));
     return number.scale * (number.logarithm ? std::log10(*cell) : *cell) + number.offset;
   }
 
-  bool is_none(const std::string& column, double value) const {
+  bool is_none(const std::string& column, double value) {
     const auto found = map_.none.find(column);
-    return found != map_.none.end() &&
-           std::find(found->second.begin(), found->second.end(), value) != found->second.end();
+    const bool is_it =
+        found != map_.none.end() && std::find(found->second.begin(), found->second.end(), value) != found->second.end();
+    if (is_it) met_.emplace(column, value);
+    return is_it;
   }
 
   // Nothing for a receiver of satellites without a fix: empty, or zero and zero.
@@ -280,6 +285,10 @@ class Importer {
   }
 
   void say_assumptions() {
+    for (const auto& [column, values] : map_.none)
+      for (const double value : values)
+        if (!met_.count({column, value}))
+          result_.assumed.push_back(fmt::format("none {} = {}: no cell has it", column, value));
     for (const ForeignTable& table : source_.files()) {
       for (const std::string& guess : table.guesses()) result_.assumed.push_back(table.file() + ": " + guess);
     }
@@ -314,7 +323,8 @@ class Importer {
   std::vector<SourceRow> rows_;                             // in the order of the result
   std::map<const ColumnRule*, std::vector<double>> times_;  // by rule, of rows_
   std::optional<TangentPlane> plane_;
-  std::vector<std::string> places_;  // assumptions
+  std::set<std::pair<std::string, double>> met_;  // values of "none" that a cell has, by column
+  std::vector<std::string> places_;               // assumptions
   Imported result_;
 };
 

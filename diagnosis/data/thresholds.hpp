@@ -42,5 +42,24 @@ inline constexpr double other_unit = 200;
 // factor; without coordinates between, so that the radio did not go there; chosen;
 // DatasetFaults.FarPlacesOfOneUnitAreTaken
 inline constexpr double unit_gap = 50;
+// diagonals; of the plan of all walls, beyond which places are of another site; chosen; DataDoubts.AnotherSite
+inline constexpr double plans_beside = 10;
+// m; beside the plan, beyond which places may be degrees; chosen; DataDoubts.Degrees
+inline constexpr double degrees_beside = 5;
+// m; extent below which many places may be degrees, 0.1 degrees of which are 11 km; chosen; DataDoubts.Degrees
+inline constexpr double degrees_extent = 1;
+// places; of one radio, fewest that may be degrees; chosen; DataDoubts.Degrees
+inline constexpr std::size_t degrees_places = 10;
+// m; above all walls, beyond which a height may be in millimetres; chosen; DataDoubts.Heights
+inline constexpr double height_above = 100;
+// readings; fewest that may be in Bel; chosen; DataDoubts.Bel
+inline constexpr std::size_t bel_readings = 50;
+// dBm; within which levels may be Bel; chosen; DataDoubts.Bel
+inline constexpr double bel_level = 13;
+// factor; between the longest distance and the shortest (from 1 m), above which distance alone makes 12 dB; derived;
+// DataDoubts.Bel
+inline constexpr double bel_distances = 4;
+// m; longest of all distances below which they may be in kilometres; chosen; DatasetFaults.DistancesThatTellNothing
+inline constexpr double shortest_range = 0.1;
 
 }  // namespace muster::diagnosis::thresholds

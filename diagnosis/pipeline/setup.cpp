@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/calibration/data_doubts.hpp"
 #include "diagnosis/inference/assess/search.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/causes/cheap_columns.hpp"
@@ -118,7 +119,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       fitted(fit(model, data, hold_causes(model))),
       base(sensitivities(model, fitted.parameters)),
       used(used_rows(model, data, expected.size() > 0 ? expected : fitted.mean, fitted.rows_used())),
-      notes(joined({data.notes, notes_on_radios(model, data), notes_of_places, used.notes})),
+      notes(joined({data.notes, notes_on_radios(model, data), doubts_of(model, data), notes_of_places, used.notes})),
       run(std::make_shared<CauseModel>(model, world, table, plugins)),
       observed(observed_columns(data, used.rows)),
       layout(std::make_shared<const LinkLayout>(

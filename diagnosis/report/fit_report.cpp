@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "diagnosis/calibration/data_doubts.hpp"
 #include "diagnosis/calibration/fit_figures.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
 
@@ -127,7 +128,8 @@ FitReport::FitReport(const std::filesystem::path& world, const std::filesystem::
                      const Library::SearchPath& plugins, const FitOptions& options, const CellOptions& cells,
                      const std::function<void(double)>& progress)
     : options_(cells), data_(read_dataset(data)), model_(world, data, plugins) {
-  for (const auto& notes : {notes_on_radios(model_, data_), check_places(model_, data_)})
+  for (const auto& notes : {notes_on_radios(model_, data_), doubts_of(model_, data_),
+                            data_.has_places() ? check_places(model_, data_) : std::vector<std::string>{}})
     data_.notes.insert(data_.notes.end(), notes.begin(), notes.end());
   progress(0.2);
   fit_ = diagnosis::fit(model_, data_, options);

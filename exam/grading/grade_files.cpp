@@ -147,16 +147,30 @@ Verdict read_verdict(const std::string& text) {
   }
 }
 
+// Throws std::invalid_argument with the file.
+static Truth truth_in(const fs::path& file) try {
+  return read_truth(read_file(file));
+} catch (const json::parse_error& e) {
+  throw std::invalid_argument(fmt::format(
+      "{}: is no JSON from byte {} on; expected an answer that muster exam make wrote", file.string(), e.byte));
+} catch (const json::exception&) {
+  throw std::invalid_argument(file.string() + ": lacks what an answer has; expected one that muster exam make wrote");
+}
+
 Grades grade(const fs::path& answers, const fs::path& reports) {
   std::vector<fs::path> files;
   const fs::path folder = fs::is_directory(answers / "answers") ? answers / "answers" : answers;
+  if (!fs::is_directory(folder))
+    throw std::invalid_argument("--answers: " + folder.string() + ": there is no such folder");
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
-  if (files.empty()) throw std::runtime_error("no answers in " + folder.string());
+  if (files.empty())
+    throw std::invalid_argument("--answers: " + folder.string() +
+                                ": has no case_....json; expected a folder that muster exam make wrote");
   std::sort(files.begin(), files.end());
   Grades grades;
   for (const fs::path& file : files) {
-    const Truth truth = read_truth(read_file(file));
+    const Truth truth = truth_in(file);
     Verdict verdict;  // for a case without a report: silence, which is wrong unless the case is clean
     try {
       const auto report = report_of(reports, truth.name);
@@ -192,7 +206,8 @@ std::string as_text(const Grades& g) {
   spread("wall's location, median / 90 %", g.places.wall, " m");
   spread("wall's loss, median / 90 %", g.places.wall_loss, " dB");
   spread("obstacle's centre, median / 90 %", g.places.obstacle, " m");
-  for (const std::string& name : g.missing) out += "no readable report: " + name + "\n";
+  for (const std::string& name : g.missing)
+    out += "no readable report: " + name + "; expected what muster diagnose --json prints\n";
   return out;
 }
 

@@ -121,21 +121,24 @@ TEST_F(Program, MakesCampaignsOfTheField) {
             "muster_exam follow: " + out +
                 "/answers/case_0001.json: a case of the generator field; only those of drawn can be followed\n");
   EXPECT_EQ(run("make --generator field --style house --seed 2 --cases 1 --out x").text,
-            "muster_exam make: a style is flat, mesh, walk, drive, not \"house\"\n");
+            "muster_exam make: --style: a style is flat, mesh, walk, drive, not \"house\"\n");
   EXPECT_EQ(run("make --generator field --rows 20 30 --seed 2 --cases 1 --out x").code, 2);
 }
 
 TEST_F(Program, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run("make --seed 3 --cases 1").code, 2);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --mix some").text,
-            "muster_exam make: a kind is clean, one, two, three, outside or each, not \"some\"\n");
+            "muster_exam make: --mix: a kind is clean, one, two, three, outside or each, not \"some\"\n");
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --effects ghost").code, 2);
   EXPECT_EQ(run("make --seed 3x --cases 1 --out x").code, 2);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --lambda 1,2,3").text,
             "muster_exam make: --lambda needs a number, or the least and the most as L,M\n");
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --lambda 60,50").code, 2);
   EXPECT_EQ(run("make --help").text, run("--help").text);
-  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --depth 2").text, "muster_exam make: no option is called --depth\n");
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --depth 2").text,
+            "muster_exam make: there is no option --depth; expected one of --cases, --effects, --first, --generator, "
+            "--lambda, "
+            "--mix, --out, --rows, --seed, --size, --style, --walls\n");
   EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 74);
 }
 

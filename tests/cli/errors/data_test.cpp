@@ -76,7 +76,8 @@ void expect_refused(const std::string& data, const std::string& message) {
 
 TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
   expect_refused(Data().set(0, 7, "level[dBm]").text(),
-                 ":1:1: no column \"rssi[dBm]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rx_y, level");
+                 ":1:1: no column \"rssi[dBm]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rx_y, level"
+                 "; muster import FILE --map MAP renames columns");
   expect_refused(Data().set(0, 5, "rx_x[mm]").text(),
                  ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\": 1 mm is 0.001 m");
 }
@@ -103,9 +104,8 @@ TEST(Fault25, NumbersOfAnotherCountry) {
                  ":7:1: the row has 9 or more cells; expected 8, with ',' between them and '.' in numbers");
   expect_refused(
       Data().text("\n", ";"),
-      ":1:1: no ',' in the header; expected ',' between cells (sed 's/,/./g; s/;/,/g' FILE makes them of ';' and "
-      "decimal commas; muster import FILE --map MAP --out FILE reads "
-      "readings between ';' or tabs)");
+      ":1:1: cells stand between ';'; expected ',' between cells and '.' in numbers: sed 's/;/,/g' FILE makes them so "
+      "(readings: muster import FILE --map MAP --out FILE)");
 }
 
 TEST(Fault25, PlacesInAnotherUnitOrOrder) {

@@ -169,10 +169,12 @@ TEST(Fault5, ARecordOfNoTableIsToldWhetherItIsWrittenOrNot) {
 TEST(Fault5, FoldersOfPluginsThatAreNotThereAreTold) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good/>"));
-  expect_error(folder.muster({"check", "world.xml", "--plugins", "toys"}), 2, "--plugins: \"toys\" is no folder");
+  expect_error(folder.muster({"check", "world.xml", "--plugins", "toys"}), 2,
+               "--plugins: \"toys\" is no folder; expected one");
   Surroundings around;
   around.environment = {"MUSTER_PLUGIN_PATH=" MUSTER_TOYS ":toys"};
-  expect_error(folder.muster({"check", "world.xml"}, around), 2, "MUSTER_PLUGIN_PATH: \"toys\" is no folder");
+  expect_error(folder.muster({"check", "world.xml"}, around), 2,
+               "MUSTER_PLUGIN_PATH: \"toys\" is no folder; expected one");
 }
 
 TEST(Fault13, TwoOfOneNameAreRefusedWithBothPlaces) {

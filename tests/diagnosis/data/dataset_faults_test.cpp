@@ -35,6 +35,44 @@ TEST(DatasetFaults, LevelsThatNoReceiverGives) {
             "d.csv:3:15: row 2: an rssi of -500 dBm is below thermal noise; expected a level in dBm");
 }
 
+TEST(DatasetFaults, ALogThatIsJoinedToItselfOrHasOneTime) {
+  const std::string log = "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,-51\n2,a,b,0,0,3,0,-52\n";
+  EXPECT_EQ(reading(header + log + log),
+            "d.csv:5:1: rows 4 to 6 repeat rows 1 and following: the log is joined to itself; expected it once");
+  EXPECT_EQ(reading(header + "7,a,b,0,0,1,0,-50\n7,a,b,0,0,2,0,-51\n"),
+            "d.csv:2:1: t is 7 s in all rows; expected the time of each reading, or no column t[s]");
+}
+
+TEST(DatasetFaults, AMarkOfManyRowsAndOtherScales) {
+  EXPECT_EQ(
+      reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,127\n2,a,b,0,0,3,0,-52\n3,a,b,0,0,4,0,127\n"),
+      "d.csv:3:15: row 2: an rssi of 127 dBm is over +30 dBm; expected a level in dBm, which is mostly negative; 2 "
+      "rows have it: is 127 a mark for nothing received? then leave these cells empty (in a map of muster import: "
+      "none rssi = 127)");
+  const auto ends_with = [](const std::string& rows, const std::string& end) {
+    const std::string said = reading(header + rows);
+    EXPECT_TRUE(said.ends_with(end)) << said;
+  };
+  ends_with("0,a,b,0,0,1,0,218\n1,a,b,0,0,2,0,190\n",
+            "; whole numbers from 128 to 255 are an unsigned byte: rssi[dBm] = 1*COLUMN - 256");
+  ends_with("0,a,b,0,0,1,0,81\n1,a,b,0,0,2,0,64\n", "; a quality in per cent is no level");
+}
+
+TEST(DatasetFaults, DistancesThatTellNothing) {
+  const auto notes = [](const std::string& rows) {
+    const Scratch scratch;
+    return read_dataset(scratch.write("d.csv", "t[s],tx,rx,distance[m],path_loss[dB]\n" + rows)).notes;
+  };
+  EXPECT_EQ(
+      notes("0,a,b,0.013,50\n1,a,b,0.013,51\n").back(),
+      "column \"distance[m]\" is 0.013 m in all rows, so that the exponent n cannot be told from the loss l0; are "
+      "these kilometres? expected metres");
+  EXPECT_EQ(notes("0,a,b,0.01,50\n1,a,b,0.02,51\n").back(),
+            "column \"distance[m]\" goes from 0.01 to 0.02 m; are these kilometres? expected metres");
+  EXPECT_EQ(notes("0,a,b,10,50\n1,a,b,20,51\n").back(),
+            "path_loss[dB] is read as the level of what was sent with 0 dBm");
+}
+
 Dataset with_levels(const std::vector<std::string>& levels) {
   const Scratch scratch;
   std::string text = header;

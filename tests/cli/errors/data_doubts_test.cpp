@@ -1,0 +1,98 @@
+// Measured data that are legal and look like another unit, site or world: each is asked about, in a note of the fit.
+#include <fmt/core.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+
+#include "program.hpp"
+
+using namespace muster::test;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+const char* const walled =
+    R"(<world name="w" dt="1" until="1">
+<material name="drywall" loss="2"/>
+<wall name="south" from="-1 -4" to="21 -4" material="drywall"/>
+<wall name="north" from="-1 4" to="21 4" material="drywall"/>
+<station name="base" at="0 0 1"/>
+<station name="rover" at="5 0 1"/>
+<radio.multiwall tx_power="0" l0="30" n="2.5"/>
+</world>)";
+
+struct Reading {
+  double x, y, z, rssi;
+};
+
+// What the fit says of readings along a zigzag, each changed.
+std::string said_of_data(const std::function<void(Reading&)>& change, const std::string& column = "") {
+  const ProgramFolder folder;
+  folder.write("world.xml", walled);
+  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]" +
+                     (column.empty() ? "" : "," + column) + "\n";
+  for (int i = 0; i < 60; ++i) {
+    Reading r{1 + i * 0.3, i % 7 - 3.0, 1, 0};
+    r.rssi = -40 - 20 * std::log10(std::hypot(r.x, r.y)) + (i * 7 % 5 - 2) * 0.4;
+    change(r);
+    text += fmt::format("{},base,rover,0,0,1,{:.6f},{:.6f},{:.3f},{:.2f}{}\n", i, r.x, r.y, r.z, r.rssi,
+                        column.empty() ? "" : fmt::format(",{}", i % 3));
+  }
+  folder.write("data.csv", text);
+  const Outcome outcome = folder.muster({"fit", "world.xml", "--data", "data.csv"});
+  return outcome.out + outcome.err;
+}
+
+TEST(DataDoubts, NothingIsDoubtedOfSoundData) {
+  EXPECT_THAT(said_of_data([](Reading&) {}), Not(HasSubstr("are th")));
+}
+
+TEST(DataDoubts, Centimetres) {
+  EXPECT_THAT(said_of_data([](Reading& r) { r.x *= 100, r.y *= 100; }),
+              HasSubstr("are they centimetres? expected metres"));
+}
+
+TEST(DataDoubts, AnotherSite) {
+  EXPECT_THAT(said_of_data([](Reading& r) { r.x += 600; }),
+              HasSubstr("m beside the plan of the walls, 22 x 8 m; are they of another site, or from another origin?"));
+}
+
+TEST(DataDoubts, Degrees) {
+  EXPECT_THAT(said_of_data([](Reading& r) { r.x = 47.3 + r.x * 1e-5, r.y = 8.5 + r.y * 1e-5; }),
+              HasSubstr("beside the plan of the walls; are these latitude and longitude?"));
+}
+
+TEST(DataDoubts, Heights) {
+  EXPECT_THAT(said_of_data([](Reading& r) { r.z = 400; }),
+              HasSubstr("note: \"rover\" stands 400 m high, and the walls end at 2.5 m; are these millimetres?"));
+}
+
+TEST(DataDoubts, Bel) {
+  EXPECT_THAT(said_of_data([](Reading& r) { r.rssi /= 10; }), HasSubstr("; are these Bel? expected dBm"));
+}
+
+TEST(DataDoubts, WallsOfNoMaterial) {
+  EXPECT_THAT(
+      said_of_data([](Reading&) {}, "walls_brick"),
+      HasSubstr("note: column \"walls_brick\": the world has no material \"brick\"; expected one of walls_drywall"));
+}
+
+// Formerly a crash, where the world has walls of a material that no column counts.
+TEST(DataDoubts, DistancesInAWorldWithWalls) {
+  const ProgramFolder folder;
+  folder.write("world.xml", walled);
+  std::string text = "t[s],tx,rx,distance[m],path_loss[dB]\n";
+  for (int i = 0; i < 60; ++i)
+    text += fmt::format("{},base,rover,{},{:.2f}\n", i, 1 + 0.3 * i,
+                        35 + 22 * std::log10(1 + 0.3 * i) + (i * 7 % 5 - 2) * 0.4);
+  folder.write("data.csv", text);
+  for (const char* more : {"--json", "--average=dB"}) {
+    const Outcome outcome = folder.muster({"fit", "world.xml", "--data", "data.csv", more});
+    EXPECT_LE(outcome.exit, 1) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("radio.multiwall/n"));
+  }
+}
+
+}  // namespace
