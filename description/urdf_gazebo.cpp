@@ -72,7 +72,8 @@ Laser laser_of(const Reader& read, const XMLElement& ray) {
   laser.min_angle = read.number(horizontal, "min_angle", 0);
   laser.max_angle = read.number(horizontal, "max_angle", 0);
   constexpr double rounded = 1e-4;  // [rad]
-  if (laser.max_angle - laser.min_angle > turn + rounded) read.fail(horizontal, "sweeps more than a whole turn, from " + print_number(laser.min_angle) + " to " +
+  if (laser.max_angle - laser.min_angle > turn + rounded)
+    read.fail(horizontal, "sweeps more than a whole turn, from " + print_number(laser.min_angle) + " to " +
                               print_number(laser.max_angle) + " rad" +
                               (laser.max_angle - laser.min_angle > 2 * turn ? "; are these degrees?" : ""));
   laser.max_angle = std::min(laser.max_angle, laser.min_angle + turn);
@@ -85,7 +86,8 @@ Laser laser_of(const Reader& read, const XMLElement& ray) {
   laser.max_range = read.above_0(range, "max");
   laser.min_range = read.number(range, "min", 0);
   laser.resolution = read.number(range, "resolution", 0);
-  if (laser.min_range < 0 || laser.min_range >= laser.max_range) read.fail(range, "<min> is not from 0 to below <max>: it is " + print_number(laser.min_range) + ", and <max> " +
+  if (laser.min_range < 0 || laser.min_range >= laser.max_range)
+    read.fail(range, "<min> is not from 0 to below <max>: it is " + print_number(laser.min_range) + ", and <max> " +
                          print_number(laser.max_range));
   if (laser.resolution < 0 || laser.resolution >= laser.max_range)
     read.fail(range, "<resolution> is not from 0 to below <max>");

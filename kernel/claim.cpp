@@ -251,8 +251,7 @@ int Instance::file(const std::string& param, const std::string& columns) {
   if (path.is_relative()) path = around_.world->file.parent_path() / path;
   if (!std::filesystem::exists(path))
     throw invalid(places_.count(param) ? places_[param] : declared_.place,
-                  "attribute " + quote(param) + ": " + no_file(path) +
-                      "; expected a table with the columns " + names);
+                  "attribute " + quote(param) + ": " + no_file(path) + "; expected a table with the columns " + names);
   Claim made;
   made.kind = MUSTER_READ;
   made.columns = Columns(names);

@@ -11,8 +11,8 @@
 namespace muster {
 namespace {
 
-constexpr double plainly = 10;     // times beyond what is sensible
-constexpr double rounding = 1e-9;  // of a period that is meant to be one tick
+constexpr double plainly = 10;       // times beyond what is sensible
+constexpr double rounding = 1e-9;    // of a period that is meant to be one tick
 constexpr double one_carrier = 1.2;  // ratio of two channels of one band, and more
 
 // Attributes of which the first is at most the second; "min_" and "max_" stand before the name of what they bound.
@@ -90,7 +90,8 @@ void check_together(const muster_plugin& plugin, const std::vector<double>& valu
     const muster_param& param = plugin.params[number];
     if (param.kind != MUSTER_REAL) continue;
     const double value = values[static_cast<std::size_t>(number)];
-    std::string doubt = of_time(plugin.phase, param, value, world.dt * static_cast<double>(declared.every), world.until());
+    std::string doubt =
+        of_time(plugin.phase, param, value, world.dt * static_cast<double>(declared.every), world.until());
     if (given.name == "until" && value == 0) doubt = "0 s is the start of the run, so that it does nothing";
     if (!doubt.empty()) warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
   }

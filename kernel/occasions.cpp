@@ -84,9 +84,9 @@ std::string state_fault(const Simulation& run, const std::string& path) {
 std::vector<double> Simulation::looked_at(const Condition& condition) const {
   auto parts = parts_of(condition.path);
   if (parts.size() < 3)
-    throw Error(Exit::invalid_input,
-                quote(condition.path) + " is no number of a table; expected one such as robot/leader/pose/x, or <at " +
-                    "t=\"SECONDS\"> for a time");
+    throw Error(Exit::invalid_input, quote(condition.path) +
+                                         " is no number of a table; expected one such as robot/leader/pose/x, or <at " +
+                                         "t=\"SECONDS\"> for a time");
   const std::string column = parts.back();
   parts.pop_back();
   if (parts.size() == 4 && parts[0] == "link") return of_link(parts[1], parts[2], parts[3], column);
@@ -372,8 +372,8 @@ void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& t
     return;
   }
   if (found == there.end())
-    throw Error(Exit::invalid_input, "no instance is called " + quote(planned.instance) +
-                                         " then; it has been removed, or comes later");
+    throw Error(Exit::invalid_input,
+                "no instance is called " + quote(planned.instance) + " then; it has been removed, or comes later");
   if (planned.kind == PluginChange::Kind::remove) {
     there.erase(found);
     return;

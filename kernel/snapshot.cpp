@@ -111,12 +111,8 @@ class Reader {
              "; expected a snapshot that this version of muster saved");
     fail();
   }
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(Exit::invalid_input, Place{file_}, what);
-  }
-  [[noreturn]] void fail() const {
-    refuse("is not a whole snapshot; expected a file that `muster run --save` wrote");
-  }
+  [[noreturn]] void refuse(const std::string& what) const { throw Error(Exit::invalid_input, Place{file_}, what); }
+  [[noreturn]] void fail() const { refuse("is not a whole snapshot; expected a file that `muster run --save` wrote"); }
 
  private:
   std::string text_, file_;

@@ -11,8 +11,8 @@
 namespace muster {
 namespace {
 
-constexpr double longest_tick = 5;  // s; robots are steered some 10 to 100 times a second
-constexpr double extent = 1000;     // m; a scene's walls and floors are within it
+constexpr double longest_tick = 5;               // s; robots are steered some 10 to 100 times a second
+constexpr double extent = 1000;                  // m; a scene's walls and floors are within it
 constexpr double tower = 50, many_storeys = 20;  // m, and times the highest wall: where no station stands
 constexpr std::size_t shape_width = 8;  // columns of a wall's shape: x0 y0 x1 y1 base height thickness material
 
@@ -109,9 +109,8 @@ class Doubts {
     double top = 0;
     for (const Shape& wall : walls_) top = std::max(top, wall.base() + wall.height());
     if (at.empty() || top <= 0 || !(at[2] > tower && at[2] > many_storeys * top)) return;
-    warn(station.attribute("at")->value_place, "attribute \"at\": " + print_real(at[2]) +
-                                                   " m up, beside walls of " + print_real(top) +
-                                                   " m; is this centimetres?");
+    warn(station.attribute("at")->value_place, "attribute \"at\": " + print_real(at[2]) + " m up, beside walls of " +
+                                                   print_real(top) + " m; is this centimetres?");
   }
 
   void look_at_antenna(const XmlElement& robot) {

@@ -1,5 +1,5 @@
-// What a world's elements say of one another and looks like another unit or a slip: walls that stand twice, doors higher
-// than their walls, antennas below the ground.
+// What a world's elements say of one another and looks like another unit or a slip: walls that stand twice, doors
+// higher than their walls, antennas below the ground.
 #pragma once
 
 #include "world.hpp"

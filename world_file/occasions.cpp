@@ -59,8 +59,8 @@ Condition read_condition(const XmlAttribute& given) {
       words.emplace_back();
   }
   if (words.back().empty()) words.pop_back();
-  const bool is_joined = std::any_of(words.begin(), words.end(),
-                                     [](const std::string& word) { return word == "and" || word == "or"; });
+  const bool is_joined =
+      std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "and" || word == "or"; });
   if (words.size() != 3)
     throw refuse(quote(given.value) + " is no condition; expected " + a_condition +
                  (is_joined ? "; one comparison in each: \"and\" and \"or\" are not known" : ""));

@@ -180,8 +180,7 @@ class RowReader {
   void add_file(const XmlElement& given, const Element& element) {
     const auto& file = *given.attribute("file");
     const auto path = world_.file.parent_path() / file.value;
-    if (!std::filesystem::exists(path))
-      throw invalid(file.value_place, "attribute \"file\": " + no_file(path));
+    if (!std::filesystem::exists(path)) throw invalid(file.value_place, "attribute \"file\": " + no_file(path));
     files_.push_back({&element, TextTable::read(path), world_.rows.size()});
     const auto& table = files_.back().table;
     if (table.rows() == 0)

@@ -7,8 +7,8 @@
 namespace muster::missions {
 namespace {
 
-constexpr double far_off = 100;  // m; and
-constexpr double fastest = 100;  // m/s, at which no robot reaches it within the run
+constexpr double far_off = 100;   // m; and
+constexpr double fastest = 100;   // m/s, at which no robot reaches it within the run
 constexpr double weakest = -110;  // dBm; radios receive down to some -95
 
 // What all missions and orders of the world file say and await.
@@ -34,12 +34,12 @@ std::vector<std::string> awaited_by(const XmlElement& element) {
 }
 
 bool may_talk(const std::string& plugin) {
-  static const std::vector<std::string> silent = {"physics.", "radio.", "network.", "robots.", "sensors.",
-                                                  "observe.", "routing.", "data."};
-  static const std::vector<std::string> known = {
-      "control.beacon", "control.connectivity", "control.goal2d", "control.waypoint", "control.steady",
-      "control.wander", "control.car",          "control.strafe", "control.path3d",   "control.velocity3d",
-      "control.keep_clear", "control.attitude"};
+  static const std::vector<std::string> silent = {"physics.", "radio.",   "network.", "robots.",
+                                                  "sensors.", "observe.", "routing.", "data."};
+  static const std::vector<std::string> known = {"control.beacon",     "control.connectivity", "control.goal2d",
+                                                 "control.waypoint",   "control.steady",       "control.wander",
+                                                 "control.car",        "control.strafe",       "control.path3d",
+                                                 "control.velocity3d", "control.keep_clear",   "control.attitude"};
   const auto begins = [&](const std::string& prefix) { return plugin.rfind(prefix, 0) == 0; };
   return std::none_of(silent.begin(), silent.end(), begins) &&
          std::find(known.begin(), known.end(), plugin) == known.end();
@@ -141,8 +141,8 @@ class Doubts {
     for (const auto& message : awaited_by(step)) {
       if (talk_.is_whole && !has(talk_.said, message))
         warn(step.place, "<" + step.name + "> waits for " + quote(message) + ", and no mission and no orders of this " +
-                             "world say it" + did_you_mean(message, talk_.said) +
-                             "; expected <say text=\"" + message + "\"/> or an <order>");
+                             "world say it" + did_you_mean(message, talk_.said) + "; expected <say text=\"" + message +
+                             "\"/> or an <order>");
     }
     const auto* radio = step.attribute("radio");
     if (step.name == "follow" && radio && talk_.is_whole && !has(talk_.reporters, radio->value))
@@ -150,9 +150,10 @@ class Doubts {
                                    " never says where it is; expected a mission of its own with report=\"0.5\"");
     const auto* above = step.attribute("above");
     if (step.name == "keep_link" && above && parse_real(above->value).value_or(0) < weakest)
-      warn(above->value_place, "attribute \"above\": " + above->value +
-                                   " dBm is weaker than what radios receive, some -95 dBm, so that a link that is heard "
-                                   "at all is strong enough");
+      warn(above->value_place,
+           "attribute \"above\": " + above->value +
+               " dBm is weaker than what radios receive, some -95 dBm, so that a link that is heard "
+               "at all is strong enough");
     const auto* at = step.attribute("at");
     if (!at || !start_ || until_ <= 0) return;
     auto place = parse_reals(at->value, 3);
@@ -186,8 +187,8 @@ std::vector<std::string> doubts_of_orders(const Setup& setup, const XmlElement& 
                        quote(words->value) + did_you_mean(words->value, talk.awaited) +
                        (talk.awaited.empty() ? "" : "; " + expected_one_of(talk.awaited)));
     if (at && until > 0 && parse_real(at->value).value_or(0) > until)
-      doubts.push_back(at->value_place.text() + ": attribute \"at\": " + at->value + " s is after the end of the run at " +
-                       print_real(until) + " s");
+      doubts.push_back(at->value_place.text() + ": attribute \"at\": " + at->value +
+                       " s is after the end of the run at " + print_real(until) + " s");
   }
   return doubts;
 }

@@ -9,9 +9,10 @@ using testing::ElementsAre;
 using testing::EndsWith;
 
 TEST_F(Missions, AMessageThatNobodySaysIsWarnedOf) {
-  EXPECT_THAT(said(run("<wait message='go'/>"), "mission"),
-              ElementsAre(EndsWith("mission.xml:2:1: <wait> waits for \"go\", and no mission and no orders of this world "
-                                   "say it; expected <say text=\"go\"/> or an <order>")));
+  EXPECT_THAT(
+      said(run("<wait message='go'/>"), "mission"),
+      ElementsAre(EndsWith("mission.xml:2:1: <wait> waits for \"go\", and no mission and no orders of this world "
+                           "say it; expected <say text=\"go\"/> or an <order>")));
 }
 
 TEST_F(Missions, StepsThatAreNeverComeToAreWarnedOf) {

@@ -143,10 +143,9 @@ TEST(MeshWorld, SaysWhatIsWrong) {
     return "";
   };
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"open.obj\" material=\"stone\" kind=\"sheet\"/>"), "");
-  EXPECT_EQ(
-      refusal("<mesh name=\"m\" file=\"open.obj\" material=\"stone\"/>"),
-      "world.xml:5:19: meshes (radio.meshes): mesh \"m\" is not closed: the edge "
-      "from 0.000 0.000 0.000 to 0.000 1.000 0.000 has 1 triangle; expected a closed surface, or kind=\"sheet\"");
+  EXPECT_EQ(refusal("<mesh name=\"m\" file=\"open.obj\" material=\"stone\"/>"),
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\" is not closed: the edge "
+            "from 0.000 0.000 0.000 to 0.000 1.000 0.000 has 1 triangle; expected a closed surface, or kind=\"sheet\"");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"empty.stl\" material=\"stone\"/>"),
             "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"empty.stl\" is empty");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"page.obj\" material=\"stone\"/>"),

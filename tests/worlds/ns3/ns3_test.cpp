@@ -296,10 +296,9 @@ TEST_F(Ns3, HoldsOneSimulationAProcess) {
   {
     Simulation one = world(pair + ns3), two = world(pair + ns3);
     one.step();
-    EXPECT_THAT(
-        error_of([&] { two.step(); }),
-        testing::HasSubstr("network (network.ns3): ns-3 holds one simulation a "
-                           "process, and another instance has it; expected one network.ns3"));
+    EXPECT_THAT(error_of([&] { two.step(); }),
+                testing::HasSubstr("network (network.ns3): ns-3 holds one simulation a "
+                                   "process, and another instance has it; expected one network.ns3"));
     one.step();
   }
   Simulation next = world(pair + ns3);
