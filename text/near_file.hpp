@@ -6,7 +6,7 @@
 
 namespace muster {
 
-// `; did you mean "worlds/world.xml"?`: the entry of the same folder that is fewest typing errors away, or the path
+// `; did you mean "hall.xml"?`: the entry of the same folder that is fewest typing errors away, or the path
 // with
 // '/' where it has '\'; empty where there is none, or the folder has very many.
 std::string near_file(const std::filesystem::path& path);

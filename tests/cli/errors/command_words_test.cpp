@@ -28,7 +28,7 @@ TEST(CommandWords, SayWhatWasMeant) {
   EXPECT_THAT(words_said_by({"probe", "world.xml", "a", "b", "--at", "500"}),
               HasSubstr("--at: 500 s is after the end of the run at 2 s; expected at most 2 s"));
   EXPECT_THAT(words_said_by({"map", "world.xml", "--out", "m", "--at", "500"}), HasSubstr("expected at most 2 s"));
-  EXPECT_THAT(words_said_by({"compare", "world.xml", "a=b", "--within", "0.05"}),
+  EXPECT_THAT(words_said_by({"compare", "world.xml", "world.xml", "--within", "0.05"}),
               HasSubstr("such as pose/distance=0.05"));
   EXPECT_THAT(words_said_by({"log", "info", "m.csv"}), HasSubstr("m.csv: is a table already; expected an MCAP file"));
   EXPECT_THAT(words_said_by({"check", "world.xml", "--plugins", "m.csv"}),

@@ -319,7 +319,8 @@ TEST(Fault25, DistancesAndPathLosses) {
                  ":3:14: row 2: a path loss of -60 dB, a level of 60 dBm, is over +30 dBm; expected a level in dBm, "
                  "which is mostly negative");
   expect_refused("tx,rx,path_loss[dB]\nbase,rover,60\nbase,rover,61\n",
-                 ":1:1: no column \"tx_x[m]\" in the table, which has tx, rx, path_loss");
+                 ":1:1: no column \"tx_x[m]\" in the table, which has tx, rx, path_loss; muster import FILE --map MAP "
+                 "renames columns");
 }
 
 TEST(Fault25, WhatIsNoFaultIsTaken) {
