@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -15,11 +16,9 @@ constexpr int farthest = 9000;  // a field of one part in 8,000 of the variance,
 }  // namespace
 
 double LawLikelihood::log_variance_of(ReadingDistribution law) const {
+  const std::vector<LawPart> added = std::exchange(law.added, {});
   std::vector<LawPart> heavy;
-  for (const LawPart& part : law.added) {
-    if (part.law->is_heavy_tailed(part.params)) heavy.push_back(part);
-  }
-  std::erase_if(law.added, [](const LawPart& part) { return part.law->is_heavy_tailed(part.params); });
+  for (const LawPart& part : added) (part.law->is_heavy_tailed(part.params) ? heavy : law.added).push_back(part);
   const double light = variance_of(law, step_);
   double result = light;
   for (const LawPart& part : heavy) {

@@ -169,6 +169,7 @@ std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& 
 }
 
 std::vector<std::string> check_places(const LinkModel& model, const Dataset& data) {
+  if (!data.has_places()) return {};  // distances alone
   check_scale(model, data);
   check_plan(model, data);
   return check_stations(model, data);

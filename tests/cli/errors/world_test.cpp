@@ -33,9 +33,8 @@ TEST(Fault5, WordsOfTheCommandLineToo) {
   const ProgramFolder folder;
   const auto misspelt = folder.muster({"chekc"});  // the list of verbs grows
   EXPECT_EQ(misspelt.exit, 2);
-  EXPECT_THAT(misspelt.err,
-              testing::StartsWith("muster: error: there is no verb \"chekc\"; expected one of run, check, "));
-  EXPECT_THAT(misspelt.err, testing::EndsWith("; did you mean \"check\"?\n"));
+  EXPECT_THAT(misspelt.err, testing::StartsWith("muster: error: there is no verb \"chekc\"; did you mean \"check\"? "
+                                                "expected one of run, check, "));
   expect_error(folder.muster({"check"}), 2, "muster check: world is required; see muster check --help");
 }
 

@@ -30,6 +30,20 @@ const Fitted& plain() {
   return fitted;
 }
 
+// Distances in the place of places: a world with walls has nothing to hold them against.
+TEST(Hall, DistancesAloneAreFittedBesideItsWalls) {
+  const Scratch scratch;
+  std::string table = "t[s],tx,rx,distance[m],path_loss[dB]\n";
+  for (int i = 0; i < 60; ++i) {
+    const double distance = 1 + 0.2 * i;
+    table += print_real(i) + ",base,rover," + print_real(distance) + "," +
+             print_real(40 + 22 * std::log10(distance) + (i % 3 - 1)) + "\n";
+  }
+  const std::filesystem::path file = scratch.write("distances.csv", table);
+  const Fitted fitted(hall, file);
+  EXPECT_TRUE(check_places(fitted.model, fitted.data).empty());
+}
+
 TEST(Hall, ItsProgramWritesTheSameDataAgain) {
   const Scratch scratch;
   for (const auto& [file, what] : {std::pair{"measured_plain.csv", "plain"}, std::pair{"measured.csv", "hidden"}}) {

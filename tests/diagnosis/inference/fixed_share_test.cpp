@@ -33,6 +33,32 @@ Sites mesh(Index sites, Index rows_each_way) {
   return result;
 }
 
+// Rows of a site are equally near. The choice among them must not follow the map, or two maps differ by that choice.
+TEST(Neighbours, OfASiteAreTheSameWhereverItLies) {
+  const Sites here = mesh(12, 15);
+  Sites there = here;
+  there.place *= -3;
+  there.place.row(1).array() += 40;
+  for (Index i = 0; i < here.size(); ++i) there.anchor.col(i) << here.anchor(1, i), 5 - 2 * here.anchor(0, i), 1;
+  const Conditioning conditioning{10, 0, 1};
+  const std::vector<Index> a = neighbours_of(here, conditioning), b = neighbours_of(there, conditioning);
+  const RecurringSites recurring(here);
+  Index full = 0;
+  for (Index i = 0; i < here.size(); ++i) {
+    const auto of_site = [&](const std::vector<Index>& all) {
+      std::vector<Index> result;
+      for (Index slot = 0; slot < conditioning.slots(); ++slot) {
+        const Index row = all[static_cast<std::size_t>(i * conditioning.slots() + slot)];
+        if (row >= 0 && recurring.of(i, row) != Relation::apart) result.push_back(row);
+      }
+      return result;
+    };
+    EXPECT_EQ(of_site(a), of_site(b)) << i;
+    full += static_cast<Index>(of_site(a).size()) == conditioning.slots();
+  }
+  EXPECT_GT(full, here.size() / 2);
+}
+
 Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
   const Index n = sites.size();
   const RecurringSites recurring(sites);

@@ -61,6 +61,27 @@ INSTANTIATE_TEST_SUITE_P(Effects, SealedCase,
                                          Hidden{"outliers", 14}, Hidden{"wall_absent", 16}),
                          [](const auto& hidden) { return std::string(hidden.param.effect); });
 
+// The world's law of readings is taken out: fading is in the data and nobody states it.
+std::filesystem::path without_law(const std::filesystem::path& world) {
+  std::ifstream in(world / "world.xml");
+  std::string kept;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("<radio.fading") == line.npos) kept += line + '\n';
+  }
+  in.close();
+  std::ofstream(world / "world.xml") << kept;
+  return world;
+}
+
+TEST(WorldWithoutALaw, OutliersAreNamedAndFadingIsNone) {
+  const Scratch scratch;
+  const auto off = without_law(sealed_case(scratch, "--mix one --lambda 400 --effects outliers", 1));
+  expect_only("effect.outliers", diagnose(off, off / "measured.csv", plugins));
+  const auto clean = without_law(made_case(scratch, "--seed 32 --rows 3000 4000 --mix clean", 1));
+  const Diagnosis found = diagnose(clean, clean / "measured.csv", plugins);
+  EXPECT_TRUE(found.causes.empty()) << told(found);
+}
+
 // Two of 14 outliers gave 98 % of the gain of a wall of 17 dB, half of it within four standard errors.
 TEST(SealedPair, OutliersAreNoWallBesideAWallOfAnotherMaterial) {
   const Scratch scratch;
