@@ -11,9 +11,8 @@
 namespace muster {
 namespace {
 
-constexpr double plainly = 10;       // times beyond what is sensible
-constexpr double rounding = 1e-9;    // of a period that is meant to be one tick
-constexpr double one_carrier = 1.2;  // ratio of two channels of one band, and more
+constexpr double plainly = 10;     // times beyond what is sensible
+constexpr double rounding = 1e-9;  // of a period that is meant to be one tick
 
 // Attributes of which the first is at most the second; "min_" and "max_" stand before the name of what they bound.
 constexpr std::pair<std::string_view, std::string_view> orders[] = {
@@ -24,12 +23,6 @@ int find_param(const muster_plugin& plugin, const std::string& name) {
     if (name == plugin.params[i].name) return static_cast<int>(i);
   }
   return -1;
-}
-
-const XmlAttribute* given_as(const InstanceDeclaration& declared, const std::string& name) {
-  const auto found = std::find_if(declared.attributes.begin(), declared.attributes.end(),
-                                  [&](const XmlAttribute& each) { return each.name == name; });
-  return found == declared.attributes.end() ? nullptr : &*found;
 }
 
 std::string with_unit(double value, const muster_param& declared) {
@@ -43,7 +36,7 @@ void check_order(const muster_plugin& plugin, const std::vector<double>& values,
   const muster_param &first = plugin.params[lower], &second = plugin.params[upper];
   const double least = values[static_cast<std::size_t>(lower)], most = values[static_cast<std::size_t>(upper)];
   if (std::string_view(first.unit) != second.unit || !(least > most)) return;
-  const XmlAttribute *at_first = given_as(declared, low), *at_second = given_as(declared, high);
+  const XmlAttribute *at_first = declared.attribute(low), *at_second = declared.attribute(high);
   const XmlAttribute& at = at_first ? *at_first : *at_second;
   throw invalid(at.value_place, "attribute " + quote(at.name) + ": " + low + "=\"" + print_real(least) +
                                     "\" is above " + high + "=\"" + print_real(most) + '"' +
@@ -68,11 +61,6 @@ std::string of_time(uint32_t phase, const muster_param& declared, double value, 
   return "";
 }
 
-bool is_carrier(const muster_param& declared) {
-  return std::string_view(declared.name) == "frequency" && !(declared.flags & MUSTER_FREE) &&
-         std::string_view(declared.help).rfind("carrier", 0) == 0;
-}
-
 }  // namespace
 
 void check_together(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
@@ -94,25 +82,6 @@ void check_together(const muster_plugin& plugin, const std::vector<double>& valu
         of_time(plugin.phase, param, value, world.dt * static_cast<double>(declared.every), world.until());
     if (given.name == "until" && value == 0) doubt = "0 s is the start of the run, so that it does nothing";
     if (!doubt.empty()) warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
-  }
-}
-
-void compare_carriers(const std::vector<std::unique_ptr<Instance>>& instances,
-                      const std::function<void(const std::string&)>& tell) {
-  const Instance* first = nullptr;
-  double carrier = 0;
-  for (const auto& instance : instances) {
-    const int number = instance->find_param("frequency");
-    if (instance->phase() != MUSTER_RADIO || number < 0 || !is_carrier(instance->plugin().params[number])) continue;
-    const double own = instance->params()[static_cast<std::size_t>(number)];
-    if (!first) {
-      first = instance.get(), carrier = own;
-    } else if (std::max(own, carrier) > one_carrier * std::min(own, carrier)) {
-      const XmlAttribute* given = given_as(instance->declared(), "frequency");
-      tell("warning: " + (given ? given->value_place : instance->place()).text() + ": the carrier of " +
-           quote(instance->name()) + " is " + print_real(own) + " Hz, and that of " + quote(first->name()) + " (" +
-           first->place().text() + ") " + print_real(carrier) + " Hz; expected one carrier in one channel");
-    }
   }
 }
 

@@ -2,11 +2,10 @@
 // and rates that look like another unit.
 #pragma once
 
-#include <functional>
-#include <memory>
+#include <muster/plugin.h>
+
 #include <vector>
 
-#include "instance.hpp"
 #include "world_file/params.hpp"
 
 namespace muster {
@@ -14,9 +13,5 @@ namespace muster {
 // Of one plugin with its values, in the order of its declarations. Throws Error where two are in the wrong order.
 void check_together(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
                     const World& world, const Warn& warn);
-
-// Plugins that are parts of one radio channel and state different carriers; `tell` takes whole warnings.
-void compare_carriers(const std::vector<std::unique_ptr<Instance>>& instances,
-                      const std::function<void(const std::string&)>& tell);
 
 }  // namespace muster

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "instance_doubts.hpp"
+#include "carriers.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 

@@ -143,6 +143,8 @@ class Simulation {
   void rehearse();
   void rehearse(const Occasion& occasion, const std::vector<Instance*>& there, std::set<std::string>& gone);
   void warn_of_idle(const Occasion& occasion, std::set<std::string>& gone);
+  void warn_of_steered_nobody(const Occasion& occasion, const std::vector<Instance*>& there,
+                              const std::set<std::string>& gone);
   void rehearse(const PluginChange& planned, std::vector<Instance*>& there,
                 std::vector<std::unique_ptr<Instance>>& made);
   void rehearse(const RowChange& planned, const std::vector<Instance*>& there) const;

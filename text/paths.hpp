@@ -6,7 +6,7 @@
 
 namespace muster {
 
-// "there is no file "paths\\a.csv"; did you mean "paths/a.csv"?"
+// `there is no file "FOLDER\\NAME"; did you mean "FOLDER/NAME"?`
 std::string no_file(const std::filesystem::path& path);
 
 }  // namespace muster

@@ -1,5 +1,6 @@
 #include "world.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "params.hpp"
@@ -12,6 +13,12 @@ namespace {
 constexpr double most_ticks = 1e12;
 
 }  // namespace
+
+const XmlAttribute* InstanceDeclaration::attribute(std::string_view wanted) const {
+  const auto found =
+      std::find_if(attributes.begin(), attributes.end(), [&](const XmlAttribute& each) { return each.name == wanted; });
+  return found == attributes.end() ? nullptr : &*found;
+}
 
 InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin) {
   InstanceDeclaration result{plugin, plugin, 1, {}, {}, {}, element.place};

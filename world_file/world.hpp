@@ -7,6 +7,7 @@
 #include <muster/sets.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "text/error.hpp"
@@ -45,6 +46,9 @@ struct InstanceDeclaration {
   // Of an instance that no element names: the element that needs it, and that element's name.
   Place needed_at{};
   std::string needed_by{};
+
+  // Null where it is not written.
+  const XmlAttribute* attribute(std::string_view wanted) const;
 };
 
 // A plugin that is exchanged, inserted or removed while the run goes on.

@@ -139,7 +139,7 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
             "muster_exam make: there is no option --depth; expected one of --cases, --effects, --first, --generator, "
             "--lambda, "
             "--mix, --out, --rows, --seed, --size, --style, --walls\n");
-  EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 74);
+  EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 2);
 }
 
 }  // namespace

@@ -70,7 +70,8 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
           "a.txt: byte 0: is no MCAP file; one begins with the bytes 89 4d 43 41 50 30 0d 0a");
   refused({"log", "info", "b.mcap"}, "b.mcap: cannot be read: No such file or directory", 74);
   refused({"log", "cut", "a.txt", "--from", "1"}, "cut needs --out, the file to write");
-  refused({"log", "cut", "a.txt", "-o", "b", "--from", "2", "--to", "2"}, "--from 2 is not before --to 2");
+  refused({"log", "cut", "a.txt", "-o", "b", "--from", "2", "--to", "2"},
+          "--from 2 is not before --to 2, which is not included");
   refused({"log", "info", "a.txt", "--from", "1"}, "--from and --to are of cut, not of info");
   refused({"log", "recover", "a.txt", "--column", "x"}, "--column is of csv, not of recover");
   refused({"run", world, "--plot", "robot/*/pose/x"}, "--plot needs --out, the folder to draw into");

@@ -156,13 +156,13 @@ TEST(Channel, Row24ReportsRssiInStepsBetweenItsEnds) {
 
 TEST(Channel, RefusesStepsWithoutRange) {
   const Folder folder;
-  Simulation world =
-      world_of(folder, stations() + "<radio.multiwall/>" + quiet + "<radio.rssi_steps least=\"3\" most=\"2\"/>");
   try {
-    world.step();
+    world_of(folder, stations() + "<radio.multiwall/>" + quiet + "<radio.rssi_steps least=\"3\" most=\"2\"/>");
     FAIL() << "not refused";
   } catch (const Error& refused) {
-    EXPECT_THAT(refused.what(), testing::EndsWith("attribute \"least\": is above \"most\"; expected at most that"));
+    EXPECT_THAT(
+        refused.what(),
+        testing::EndsWith("attribute \"least\": least=\"3\" is above most=\"2\"; expected least to be at most most"));
   }
 }
 
