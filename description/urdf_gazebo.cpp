@@ -14,7 +14,7 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr double turn = 6.283185307179586;
+constexpr double whole_turn = 6.283185307179586;
 
 class Reader {
  public:
@@ -72,11 +72,11 @@ Laser laser_of(const Reader& read, const XMLElement& ray) {
   laser.min_angle = read.number(horizontal, "min_angle", 0);
   laser.max_angle = read.number(horizontal, "max_angle", 0);
   constexpr double rounded = 1e-4;  // [rad]
-  if (laser.max_angle - laser.min_angle > turn + rounded)
+  if (laser.max_angle - laser.min_angle > whole_turn + rounded)
     read.fail(horizontal, "sweeps more than a whole turn, from " + print_number(laser.min_angle) + " to " +
                               print_number(laser.max_angle) + " rad" +
-                              (laser.max_angle - laser.min_angle > 2 * turn ? "; are these degrees?" : ""));
-  laser.max_angle = std::min(laser.max_angle, laser.min_angle + turn);
+                              (laser.max_angle - laser.min_angle > 2 * whole_turn ? "; are these degrees?" : ""));
+  laser.max_angle = std::min(laser.max_angle, laser.min_angle + whole_turn);
   if (laser.samples > 1 && !(laser.max_angle > laser.min_angle))
     read.fail(horizontal, "<max_angle> is not above <min_angle>");
   if (laser.samples == 1) laser.max_angle = laser.min_angle;

@@ -291,45 +291,6 @@ TEST(UrdfOfRos, GazeboDriveIsRead) {
   EXPECT_EQ(robot_of(two_wheels() + with(plugin, "n>0.5", "n>0.6")).drive->wheel_base, 0.5);
 }
 
-const std::string triangle =
-    "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
-    "endfacet\nendsolid t\n";
-const std::string in_package = link(
-    "a", "<collision><geometry><mesh filename='package://robot_description/meshes/a.stl'/></geometry></collision>");
-
-TEST(UrdfOfRos, PackagesAreFoundInTheDeclaredFolder) {
-  Files files;
-  const std::string path = files.write("r.urdf", "<robot name='r'>\n" + in_package + "</robot>");
-  files.write("ros/robot_description/meshes/a.stl", triangle);
-  const auto shapes = [&](const std::string& packages) {
-    return read_robot(path, Meshes::import, {packages, ""}).links[0].shapes.size();
-  };
-  EXPECT_EQ(shapes(files.at("ros")), 1u);
-  EXPECT_EQ(shapes(files.at("ros/")), 1u);
-  EXPECT_EQ(shapes(files.at("ros/robot_description")), 1u) << "the package itself";
-  EXPECT_EQ(message_of([&] { read_robot(path); }),
-            path +
-                ":2: link 'a': mesh 'package://robot_description/meshes/a.stl' is in a ROS package; expected "
-                "packages=\"DIR\" of the <robot> in the world, where DIR holds the folder 'robot_description'");
-  EXPECT_EQ(message_of([&] { shapes(files.at("")); }),
-            path +
-                ":2: link 'a': mesh 'package://robot_description/meshes/a.stl' is in the ROS package "
-                "'robot_description', of which there is no folder in packages=\"" +
-                files.at("") + "\"");
-}
-
-TEST(UrdfOfRos, PackagesDoNotReachBeyondTheirFolder) {
-  Files files;
-  files.write("ros/robot_description/package.xml", "");
-  files.write("secret.stl", triangle);
-  const std::string path =
-      files.write("r.urdf", "<robot name='r'>\n" + with(in_package, "meshes/a.stl", "../../secret.stl") + "</robot>");
-  EXPECT_NE(message_of([&] {
-              read_robot(path, Meshes::import, {files.at("ros"), ""});
-            }).find("is outside the allowed"),
-            std::string::npos);
-}
-
 TEST(UrdfOfRos, FittingsHoldWhatAUrdfLacks) {
   Files files;
   const std::string path = files.write("r.urdf", "<robot name='r'>\n" + two_wheels() + "</robot>\n");

@@ -1,0 +1,152 @@
+#include "description/body_doubts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "description/file_text.hpp"
+
+namespace muster::description {
+
+namespace {
+
+constexpr double body_largest = 20;          // m, of a shape
+constexpr double body_farthest = 20;         // m, of a laser from its robot's origin
+constexpr double body_longest_range = 1000;  // m, of a laser
+constexpr double body_off_centre = 10;       // times the shapes' size, of the centre of mass from them
+constexpr double body_strongest = 50;        // times the torque that slips
+constexpr double body_turn = 6.283185307179586;
+constexpr double body_gravity = 9.81;
+constexpr double body_touching = 0.3;  // wheel radii above the ground: what is lower comes to it when the robot tilts
+constexpr double body_outside = 0.01;  // m beyond the support, where no rounding puts a centre of mass
+
+std::string edges_text(const Eigen::Vector3d& edges) {
+  return print_number(edges.x()) + " x " + print_number(edges.y()) + " x " + print_number(edges.z()) + " m";
+}
+
+// The points of a shape that can touch the ground first, in the robot's frame.
+std::vector<Eigen::Vector3d> low_points(const Shape& shape) {
+  std::vector<Eigen::Vector3d> points;
+  if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
+    return {shape.pose.translation() - Eigen::Vector3d(0, 0, sphere->radius)};
+  if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) {
+    for (const Eigen::Vector3d& vertex : mesh->vertices) points.push_back(shape.pose * vertex);
+    return points;
+  }
+  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
+    for (int corner = 0; corner < 8; ++corner)
+      points.push_back(shape.pose * Eigen::Vector3d((corner & 1 ? 0.5 : -0.5) * box->size.x(),
+                                                    (corner & 2 ? 0.5 : -0.5) * box->size.y(),
+                                                    (corner & 4 ? 0.5 : -0.5) * box->size.z()));
+    return points;
+  }
+  const auto& cylinder = std::get<Cylinder>(shape.geometry);
+  constexpr int around = 16;
+  for (int i = 0; i < 2 * around; ++i) {
+    const double angle = body_turn * i / around, side = i < around ? 0.5 : -0.5;
+    points.push_back(shape.pose * Eigen::Vector3d(cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
+                                                  side * cylinder.length));
+  }
+  return points;
+}
+
+class BodyDoubts {
+ public:
+  BodyDoubts(const Source& source, Robot& robot) : source_(source), robot_(robot) {}
+
+  void sizes_of_links() {
+    for (const Link& link : robot_.links) {
+      Eigen::AlignedBox3d all;
+      for (const Shape& shape : link.shapes) {
+        const Eigen::AlignedBox3d box = bounds(shape);
+        all.extend(box);
+        const bool is_mesh = std::holds_alternative<Mesh>(shape.geometry);  // what reads it warns
+        if (is_mesh || box.sizes().maxCoeff() <= body_largest) continue;
+        warn(link.line, "link '" + link.name + "': a shape of " + edges_text(box.sizes()) + "; are these millimetres?");
+        break;
+      }
+      if (link.mass.mass <= 0 || all.isEmpty()) continue;
+      const double off = all.exteriorDistance(link.mass.centre);
+      if (off > 1 && off > body_off_centre * all.sizes().norm())
+        warn(link.line, "link '" + link.name + "': its centre of mass is " + print_number(off) +
+                            " m off its collision shapes; are these millimetres?");
+    }
+  }
+
+  void lasers() {
+    for (const Sensor& sensor : robot_.sensors) {
+      const double off = sensor.pose.translation().norm();
+      if (off > body_farthest)
+        warn(0, "sensor '" + sensor.name + "': it is mounted " + print_number(off) +
+                    " m from the robot's origin; are these millimetres?");
+      if (sensor.laser.max_range > body_longest_range)
+        warn(0, "sensor '" + sensor.name + "': a range of " + print_number(sensor.laser.max_range) +
+                    " m; are these millimetres?");
+    }
+  }
+
+  // Two wheels alike carry half of the robot each, at most.
+  void torque() {
+    const DifferentialDrive& drive = *robot_.drive;
+    const double slips = drive.friction * whole_mass(robot_).mass * body_gravity * drive.wheel_radius;
+    if (slips > 0 && drive.max_torque > body_strongest * slips)
+      warn(0, "the drive's max_torque=\"" + print_number(drive.max_torque) + "\" is more than " +
+                  print_number(body_strongest) + " times what its wheels can pass to the ground, " +
+                  print_number(std::round(slips * 100) / 100) + " N m; are these N mm?");
+  }
+
+  // The centre of mass lies beyond all that touches the ground, in some direction.
+  void support() {
+    const DifferentialDrive& drive = *robot_.drive;
+    if (body_shapes(robot_).empty()) return;  // what carries it is not described
+    std::vector<Eigen::Vector3d> touch;
+    double ground = 0;
+    for (const auto& wheel : drive.wheels()) {
+      const auto place = frame_on_body(robot_, robot_.joints[wheel.joint].parent);
+      if (!place) return;  // on a kingpin or an arm
+      const Eigen::Vector3d middle = *place * robot_.joints[wheel.joint].origin.translation();
+      touch.push_back(middle - Eigen::Vector3d(0, 0, drive.wheel_radius));
+      ground = touch.size() == 1 ? touch.back().z() : std::min(ground, touch.back().z());
+    }
+    const double low = ground + body_touching * drive.wheel_radius;
+    for (const Shape& shape : whole_shapes(robot_)) {
+      for (const Eigen::Vector3d& point : low_points(shape))
+        if (point.z() < low) touch.push_back(point);
+    }
+    const Eigen::Vector3d centre = whole_mass(robot_).centre;
+    constexpr int directions = 64;
+    for (int i = 0; i < directions; ++i) {
+      const double angle = body_turn * i / directions;
+      const Eigen::Vector3d way(std::cos(angle), std::sin(angle), 0);
+      const bool is_beyond = std::all_of(
+          touch.begin(), touch.end(), [&](const Eigen::Vector3d& at) { return way.dot(centre - at) > body_outside; });
+      if (!is_beyond) continue;
+      return warn(0, "at rest the robot tips: its centre of mass, at x = " + print_number(rounded(centre.x())) +
+                         " m, y = " + print_number(rounded(centre.y())) +
+                         " m, lies beyond all that touches the ground; expected a caster or a wheel there");
+    }
+  }
+
+ private:
+  static double rounded(double metres) { return std::round(metres * 1000) / 1000; }
+
+  // Line 0: of the file as a whole.
+  void warn(int line, const std::string& what) {
+    robot_.warnings.push_back(source_.file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
+  }
+
+  const Source& source_;
+  Robot& robot_;
+};
+
+}  // namespace
+
+void warn_of_body(const Source& source, bool has_shapes, Robot& robot) {
+  BodyDoubts doubts(source, robot);
+  doubts.sizes_of_links();
+  doubts.lasers();
+  if (!robot.drive) return;
+  doubts.torque();
+  if (has_shapes) doubts.support();
+}
+
+}  // namespace muster::description
