@@ -12,14 +12,19 @@ namespace {
 using namespace muster;
 
 struct ObserveChain {
-  static constexpr auto id = "observe.chain/1";
+  static constexpr auto id = "observe.chain/2";
   static constexpr auto summary = "level, rssi, distance and walls of the links along a chain of radios";
   static constexpr auto manual =
       "`chain` names radios from one end to the other; the link of two neighbours is the one on which the further\n"
       "hears the nearer, and its columns in self/chain end in the further's name. level, rssi and distance are\n"
       "those of this tick, null without a link; rssi that was not received keeps its last value. smooth is rssi in\n"
       "a first-order filter. walls is the part of the level that the adder named by `walls` gave. below is the time\n"
-      "that smooth spent under `threshold`, worst its lowest value so far.";
+      "that smooth spent under `threshold`, share that time over the time since rssi was first received, worst the\n"
+      "lowest smooth so far. constant is the time constant with which smooth goes to `threshold`, from its first "
+      "value\n"
+      "to this one by the method of areas (Astrom and Hagglund, PID Controllers, 1995, section 2.4): the integral of\n"
+      "smooth - threshold over how much that fell. It is exact for an exponential, holds the filter's own lag, and is\n"
+      "null until smooth has come nearer by 3 dB.";
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
       text("chain", "", "names of radios, the nearest to the base first").required(),
@@ -29,8 +34,14 @@ struct ObserveChain {
 
   // One link's columns.
   struct Seen {
-    double level, rssi, smooth, distance, walls, below, worst;
+    double level, rssi, smooth, distance, walls, below, share, worst, constant;
   };
+
+  // One link's way to the threshold: smooth at its first reading, the time since, and the integral of how much it fell.
+  struct Approach {
+    double first, since, area;
+  };
+  static constexpr double least_fall = 3;  // dB; below it noise is most of what smooth fell by
 
   struct Part {
     static constexpr const char* columns = "level[dBm]";
@@ -47,8 +58,9 @@ struct ObserveChain {
         level(s.read_if_any<Level>("link/*/level")),
         rssi(s.read_if_any<Rssi>("link/*/rssi")),
         walls(s.read_if_any<Part>("link/*/level@" + s.text("walls"))),
-        chain{s.host()->claim(s.host(), MUSTER_WRITE, 0, "self/chain", columns_of(s).c_str())} {
-    if (chain.index < 0) throw std::runtime_error("");
+        chain{s.host()->claim(s.host(), MUSTER_WRITE, 0, "self/chain", columns_of(s).c_str())},
+        approach{s.host()->claim(s.host(), MUSTER_WRITE, 0, "self/approach", approaches_of(s).c_str())} {
+    if (chain.index < 0 || approach.index < 0) throw std::runtime_error("");
   }
 
   static std::vector<std::string> names_of(const Setup& s) {
@@ -82,8 +94,8 @@ struct ObserveChain {
     return name.find_first_of(",;") == name.npos ? "" : "; names stand between blanks, without commas";
   }
 
-  static std::string columns_of(const Setup& s) {
-    std::string result;
+  // The further ends of the links, as they stand in the names of columns.
+  static std::vector<std::string> ends_of(const Setup& s) {
     const std::vector<std::string> names = names_of(s);
     std::vector<std::string> ends;
     for (std::size_t i = 1; i < names.size(); ++i) {
@@ -94,9 +106,23 @@ struct ObserveChain {
         throw BadInput("chain: both \"" + names[static_cast<std::size_t>(same - ends.begin()) + 1] + "\" and \"" +
                        names[i] + "\" would give the column level_" + name + "; rename one of these radios");
       ends.push_back(name);
-      result += " level_" + name + "[dBm]? rssi_" + name + "[dBm]? smooth_" + name + "[dBm]? distance_" + name +
-                "[m]? walls_" + name + "[dB]? below_" + name + "[s] worst_" + name + "[dBm]?";
     }
+    return ends;
+  }
+
+  static std::string columns_of(const Setup& s) {
+    std::string result;
+    for (const std::string& name : ends_of(s))
+      result += " level_" + name + "[dBm]? rssi_" + name + "[dBm]? smooth_" + name + "[dBm]? distance_" + name +
+                "[m]? walls_" + name + "[dB]? below_" + name + "[s] share_" + name + " worst_" + name +
+                "[dBm]? constant_" + name + "[s]?";
+    return result;
+  }
+
+  static std::string approaches_of(const Setup& s) {
+    std::string result;
+    for (const std::string& name : ends_of(s))
+      result += " first_" + name + "[dBm]? since_" + name + "[s] area_" + name + "[dB*s]";
     return result;
   }
 
@@ -104,10 +130,25 @@ struct ObserveChain {
     for (std::size_t i = 0; i + 1 < radios.size(); ++i) {
       Seen& now = reinterpret_cast<Seen*>(&k[chain]->first)[i];
       const Seen& before = reinterpret_cast<const Seen*>(&k.last(chain)->first)[i];
-      now = {null(), before.rssi, before.smooth, null(), null(), before.below, before.worst};
+      now = {null(),       before.rssi,  before.smooth, null(),         null(),
+             before.below, before.share, before.worst,  before.constant};
       if (const int link = link_of(k, radios[i], radios[i + 1]); link >= 0)
         look(k, static_cast<std::size_t>(link), now);
+      Approach& way = reinterpret_cast<Approach*>(&k[approach]->first)[i];
+      way = reinterpret_cast<const Approach*>(&k.last(approach)->first)[i];
+      if (!is_null(now.smooth)) follow(k, before.smooth, way, now);
     }
+  }
+
+  // The time counts the first tick, the integral goes from its end on, by the trapezoidal rule.
+  void follow(const Step& k, double smooth_before, Approach& way, Seen& now) const {
+    if (is_null(way.first)) way.first = smooth_before = now.smooth;
+    if (way.since > 0) way.area += k.dt() * (way.first - (smooth_before + now.smooth) / 2);
+    way.since += k.dt();
+    now.share = now.below / way.since;
+    const double fell = way.first - now.smooth, away = way.first - k[threshold];
+    const bool is_nearer = std::copysign(fell, away) == fell && std::abs(fell) >= least_fall;
+    now.constant = is_nearer ? (away * (way.since - k.dt()) - way.area) / fell : null();
   }
 
   void look(const Step& k, std::size_t link, Seen& now) const {
@@ -148,7 +189,7 @@ struct ObserveChain {
   In<Level> level;
   In<Rssi> rssi;
   In<Part> walls;
-  Out<Row> chain;
+  Out<Row> chain, approach;
 };
 
 }  // namespace

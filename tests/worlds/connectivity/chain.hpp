@@ -11,7 +11,7 @@ namespace muster::test {
 
 // As observe.chain writes it; a link is named by its further end.
 struct ChainLink {
-  double level, rssi, smooth, distance, walls, below, worst;
+  double level, rssi, smooth, distance, walls, below, share, worst, constant;
 };
 struct Chain {
   ChainLink follower1, follower2, leader;

@@ -1,4 +1,5 @@
-// What observe.chain refuses: chains in which its columns would not be told apart.
+// What observe.chain refuses, chains in which its columns would not be told apart; and the time constant that it
+// measures.
 #include "chain.hpp"
 
 namespace {
@@ -30,6 +31,42 @@ TEST(Chain, NamesEachRadioOnce) {
   EXPECT_EQ(refusal("a c-1 c.1", "c-1"),
             begin + "chain: both \"c-1\" and \"c.1\" would give the column level_c_1; rename one of these radios");
   EXPECT_EQ(refusal("a b c.1"), "not refused");
+}
+
+struct OneLink {
+  ChainLink link;
+};
+
+// A leader alone in a channel of -30 dBm - 2 dB/m, from 6 m off, where its speed is still in proportion to the rssi.
+OneLink approached(const std::string& chain_smoothing, const std::string& until) {
+  Folder folder;
+  Simulation run = world_of(folder,
+                            "<station name='base' at='0 0 0.3'/><robot name='leader' at='6 0 0' antenna='0 0 0.3'/>"
+                            "<physics.planar/><robots.drive/><robots.odometry/><test.slope slope='2'/><network.ideal/>"
+                            "<control.beacon radio='base' period='0.1'/>"
+                            "<control.connectivity name='steer' robot='leader' roadmap='way.csv' parent='base' "
+                            "role='leader' width='20' speed='0.3' smoothing='1'/>"
+                            "<observe.chain name='chain' chain='base leader' smoothing='" +
+                                chain_smoothing + "'/>",
+                            {{"way.csv", "x[m],y[m]\n0,0\n60,0\n"}}, "dt='0.02' until='" + until + "' seed='1'");
+  while (!run.done()) run.step();
+  return row<OneLink>(run, "instance/chain/chain");
+}
+
+// Average residence times add: width / (speed slope) of the loop, less the lag of the controller's filter, which starts
+// at the first reading, plus that of the observer's.
+TEST(Chain, TheTimeConstantIsThatOfTheLoop) {
+  const double loop = 20 / (0.3 * 2), controller = 1;
+  EXPECT_NEAR(approached("0", "400").link.constant, loop - controller, 0.01 * loop);
+  EXPECT_NEAR(approached("5", "400").link.constant, loop - controller + 5, 0.01 * loop);
+  EXPECT_NEAR(approached("0", "60").link.constant, loop, 0.05 * loop) << "on the way as well";
+  EXPECT_TRUE(std::isnan(approached("0", "1").link.constant)) << "it has hardly moved";
+}
+
+TEST(Chain, TheShareOfTimeBelow) {
+  const ChainLink link = approached("0", "400").link;
+  EXPECT_EQ(link.below, 0);
+  EXPECT_EQ(link.share, 0);
 }
 
 }  // namespace

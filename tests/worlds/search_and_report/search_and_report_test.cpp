@@ -11,7 +11,7 @@ namespace {
 
 // As observe.chain writes it, a link a robot.
 struct ChainLink {
-  double level, rssi, smooth, distance, walls, below, worst;
+  double level, rssi, smooth, distance, walls, below, share, worst, constant;
 };
 struct Chain {
   ChainLink links[3];
