@@ -25,8 +25,12 @@ struct CompareWords : LadderWords {
 
 // Nothing where the word is a world's path.
 std::optional<Exchange> exchange_in(const std::string& word) {
-  const auto equals = word.find('=');
-  if (equals == std::string::npos || std::filesystem::exists(word)) return {};
+  const auto equals = word.find('='), colon = word.find(':');
+  if (std::filesystem::exists(word)) return {};
+  if (equals == std::string::npos && colon != std::string::npos && colon > 0)
+    throw Error(Exit::invalid_input, "muster compare: " + quote(word) + " is no world; expected INSTANCE=PLUGIN, " +
+                                         word.substr(0, colon) + '=' + word.substr(colon + 1));
+  if (equals == std::string::npos) return {};
   Exchange result = exchange_of(word.substr(0, equals), word.substr(equals + 1));
   if (result.instance.empty() || result.plugin.empty())
     throw Error(Exit::invalid_input,

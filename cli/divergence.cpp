@@ -188,6 +188,13 @@ void Divergence::check_tolerances() const {
         valid.push_back(name.substr(name.rfind('/') + 1) + '/' + measure.name);
       }
     }
+    std::sort(valid.begin(), valid.end());
+    valid.erase(std::unique(valid.begin(), valid.end()), valid.end());  // tables of one quantity share its name
+    std::vector<std::string> below;                                     // a table was named, and not its measure
+    std::copy_if(valid.begin(), valid.end(), std::back_inserter(below),
+                 [&](const std::string& each) { return each.starts_with(quantity + '/'); });
+    if (!known && !below.empty())
+      throw Error(Exit::invalid_input, "--within: " + quote(quantity) + " is no quantity; " + expected_one_of(below));
     if (!known)
       throw Error(Exit::invalid_input,
                   "--within: both runs have no quantity " + quote(quantity) + "; " + suggest(quantity, valid));

@@ -18,8 +18,9 @@ Exchange exchange_of(const std::string& instance, const std::string& plugin) {
 
 void exchange(World& world, const Exchange& wanted, const std::vector<std::string>& instances, const std::string& who) {
   if (std::find(instances.begin(), instances.end(), wanted.instance) == instances.end())
-    throw Error(Exit::invalid_input,
-                who + ": no instance is called " + quote(wanted.instance) + "; " + suggest(wanted.instance, instances));
+    throw Error(Exit::invalid_input, who + ": no instance is called " + quote(wanted.instance) + "; " +
+                                         suggest(wanted.instance, instances) +
+                                         plugin_hint(wanted.instance, whose_plugin(world.instances, wanted.instance)));
   InstanceDeclaration made = instance_of(wanted.instance, wanted.plugin, wanted.attributes, who);
   const auto old = std::find_if(world.instances.begin(), world.instances.end(),
                                 [&](const auto& i) { return i.name == wanted.instance; });

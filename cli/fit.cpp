@@ -54,6 +54,10 @@ char first_of(const std::string& path) {
 }
 
 void refuse_exchanged(const Words& words) {
+  if (std::filesystem::exists(std::filesystem::path(words.data) / "world.xml"))
+    throw Error(Exit::invalid_input, "muster fit: --data " + words.data +
+                                         " is the folder of a world; expected muster fit " + words.data +
+                                         " --data TABLE");
   if (std::filesystem::is_directory(words.world) || first_of(words.world) == '<' || first_of(words.data) != '<') return;
   throw Error(Exit::invalid_input, "muster fit: --data " + words.data + " begins with '<' as a world does, and " +
                                        words.world + " does not; expected muster fit WORLD --data TABLE");

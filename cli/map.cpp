@@ -80,6 +80,17 @@ struct Grid {
   }
 };
 
+// Two corners of which one coordinate is the same: mostly X0 X1 Y0 Y1.
+std::string areas_fault(const std::vector<double>& area) {
+  if (area.size() != 4) return "the plan has no width or no height";
+  std::string given;
+  for (const double v : area) given += (given.empty() ? "" : " ") + print_real(v);
+  return given + ": " +
+         (area[0] == area[2] ? "X0 and X1 are both " + print_real(area[0])
+                             : "Y0 and Y1 are both " + print_real(area[1])) +
+         "; expected X0 Y0 X1 Y1, two corners";
+}
+
 std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
   expect_channel(run);
   const auto names = names_of(run, "radio");
@@ -129,7 +140,7 @@ Grid grid_of(const pic::FloorPlan& plan, const std::vector<Sender>& senders, con
     add(words.area[0], words.area[1]), add(words.area[2], words.area[3]);
   }
   const double width = x.range().span(), height = y.range().span();
-  if (!(width > 0 && height > 0)) throw Error(Exit::invalid_input, "--area: X0 and X1, or Y0 and Y1, are the same");
+  if (!(width > 0 && height > 0)) throw Error(Exit::invalid_input, "--area: " + areas_fault(words.area));
   const double cell = std::max(width, height) / words.cells;
   const auto count = [&](double length) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell - 1e-9)));

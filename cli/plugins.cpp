@@ -99,12 +99,16 @@ void describe_element(const std::string& name, bool json, const std::vector<std:
     for (const auto& attribute : element.attributes) print_param(attribute.param, attribute.count);
     return;
   }
-  std::vector<std::string> family;  // plugins whose names begin so: "radio" may mean "radio.multiwall"
+  std::vector<std::string> family;     // plugins whose names begin so: "radio" may mean "radio.multiwall"
+  std::vector<std::string> namesakes;  // or end so: "multiwall"
   for (const auto& one : list_plugins(folders)) {
     if (one.library && std::string(one.library->id()).starts_with(name + ".")) family.emplace_back(one.library->id());
+    if (one.library && std::string(one.library->id()).ends_with("." + name)) namesakes.emplace_back(one.library->id());
   }
   throw Error(Exit::invalid_input, "there is no element " + quote(name) + ", and a plugin has a dot in its name; " +
-                                       (family.empty() ? suggest(name, names) : expected_one_of(family)));
+                                       (!namesakes.empty() ? expected_one_of(namesakes)
+                                        : family.empty()   ? suggest(name, names)
+                                                           : expected_one_of(family)));
 }
 
 }  // namespace

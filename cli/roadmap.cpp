@@ -256,7 +256,10 @@ std::optional<rm::Route> wanted_way(const World& world, const PlannedRobot& robo
   }
   rm::Route way = rm::route(made.graph, made.obstacles, from, {words.to[0], words.to[1]});
   if (way.fault.empty()) return way;
-  if (!words.path.empty()) throw Error(Exit::invalid_input, "--path: " + way.fault);
+  constexpr double largest = 10;  // m, of a robot
+  const bool is_large = made.obstacles.radius() > largest;
+  const std::string large = is_large ? "; is the radius in millimetres? expected metres" : "";
+  if (!words.path.empty()) throw Error(Exit::invalid_input, "--path: " + way.fault + large);
   warnings.push_back("--to: " + way.fault);
   return {};
 }

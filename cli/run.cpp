@@ -199,8 +199,9 @@ World asked_world(RunWords& words) {
     if (!known) {
       std::vector<std::string> names;
       for (const auto& instance : world.instances) names.push_back(instance.name);
-      throw Error(Exit::invalid_input,
-                  "--instance: no instance is called " + quote(swap.instance) + "; " + suggest(swap.instance, names));
+      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) + "; " +
+                                           suggest(swap.instance, names) +
+                                           plugin_hint(swap.instance, whose_plugin(world.instances, swap.instance)));
     }
     world.occasions.push_back({.tick = tick, .plugins = {swap}});
   }
@@ -217,7 +218,9 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)
     throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
-                                         " s, after the end of the run at " + print_real(run.world().until()) + " s");
+                                         " s, after the end of the run at " + print_real(run.world().until()) +
+                                         " s; expected --until above " + print_real(run.time()) +
+                                         ": it is a time of the world, not a duration");
   if (!words.restore.empty() && run.tick() == run.world().ticks && !words.expected)
     fmt::print(
         stderr,

@@ -18,11 +18,25 @@ struct PlottedColumn {
   std::string table, column;
 };
 
+// Of a standard table; "COLUMN" of another.
+std::string first_column(const std::string& table) {
+  for (const auto& set : standard().sets) {
+    for (const auto& quantity : set.quantities) {
+      if (table.starts_with(set.name + std::string("/")) && table.ends_with(std::string("/") + quantity.name))
+        return std::string(quantity.columns).substr(0, std::string(quantity.columns).find_first_of("[ :?{"));
+    }
+  }
+  return "COLUMN";
+}
+
 PlottedColumn plotted(const std::string& word) {
   const auto slash = word.rfind('/');
   if (slash == word.npos || slash == 0 || slash + 1 == word.size())
     throw Error(Exit::invalid_input,
                 "--plot " + quote(word) + ": expected a table and its column, such as 'robot/*/pose/x'");
+  if (std::count(word.begin(), word.end(), '/') < 3)
+    throw Error(Exit::invalid_input, "--plot " + quote(word) + " has no column; expected one of the table's, such as " +
+                                         quote(word + '/' + first_column(word)));
   return {word.substr(0, slash), word.substr(slash + 1)};
 }
 

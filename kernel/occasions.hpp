@@ -16,7 +16,8 @@ void at_place(const Place& place, const Act& act) {
   try {
     act();
   } catch (const Error& e) {
-    const bool is_placed = e.place().line > 0 || std::string(e.what()).starts_with(place.file + ':');
+    const bool is_placed =
+        place.file.empty() || e.place().line > 0 || std::string(e.what()).starts_with(place.file + ':');
     throw is_placed ? e : Error(e.exit(), place, e.what());
   }
 }

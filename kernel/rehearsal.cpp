@@ -66,7 +66,7 @@ void Simulation::rehearse() {
         } catch (const Error& e) {  // the cause, where a swap has put one in the place of another kind
           if (events_.size() == before) throw;
           const std::string warning = "warning: ";
-          throw Error(e.exit(), events_[before].message.substr(warning.size()) + "; " + e.what());
+          throw Error(e.exit(), events_[before].message.substr(warning.size()));
         }
       });
     for (std::size_t i = from; i < to; ++i) rehearse(*all[i], there, gone);
@@ -89,7 +89,9 @@ void Simulation::rehearse(const Occasion& occasion, const std::vector<Instance*>
       if (!doubt.empty()) note("warning: " + when.place.text() + ": attribute \"when\": " + doubt);
     });
   if (!occasion.when && occasion.tick >= world_.ticks)
-    note("warning: " + occasion.place.text() + ": " + occasion.title + " comes at the end of the run or after it");
+    note("warning: " + occasion.place.text() + ": " + occasion.title + " comes at " +
+         print_real(static_cast<double>(occasion.tick) * world_.dt) + " s, and the run ends at " +
+         print_real(world_.until()) + " s");
 }
 
 // A robot that leaves before it joins, or twice.
@@ -141,9 +143,10 @@ void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& t
   const Instance &now = **found, &next = *made.back();
   if (next.phase() != now.phase())
     events_.push_back({0, "",
-                       "warning: " + planned.place.text() + ": the swap puts " + next.plugin().id + ", of the phase " +
-                           phase_name(next.phase()) + ", in the place of " + now.plugin().id + ", of " +
-                           phase_name(now.phase()) + ", whose work nobody does then"});
+                       "warning: " + (planned.place.file.empty() ? "" : planned.place.text() + ": ") +
+                           "the swap puts " + next.plugin().id + ", of the phase " + phase_name(next.phase()) +
+                           ", in the place of " + now.plugin().id + ", of " + phase_name(now.phase()) +
+                           ", whose work nobody does then; expected a plugin of " + phase_name(now.phase())});
   *found = made.back().get();
 }
 

@@ -37,10 +37,6 @@ bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& ce
 }  // namespace
 
 void Simulation::check_fits(const Snapshot& snapshot) const {
-  if (snapshot.dt != world_.dt)
-    throw Error(Exit::invalid_input, "the snapshot was saved at ticks of " + print_real(snapshot.dt) +
-                                         " s, and here they are of " + print_real(world_.dt) + " s; expected dt=\"" +
-                                         print_real(snapshot.dt) + '"');
   for (const auto& instance : instances_) {
     const auto found = snapshot.instances.find(instance->name());
     if (found == snapshot.instances.end()) refuse("it has no instance " + quote(instance->name()));
@@ -87,6 +83,10 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
       if (static_cast<std::size_t>(claim.row) >= rows.names.size()) refuse("it has no row for " + instance->title());
     }
   }
+  if (snapshot.dt != world_.dt)  // last: of another world it is the least that differs
+    throw Error(Exit::invalid_input, "the snapshot was saved at ticks of " + print_real(snapshot.dt) +
+                                         " s, and here they are of " + print_real(world_.dt) + " s; expected dt=\"" +
+                                         print_real(snapshot.dt) + '"');
 }
 
 // The world file may plan to change plugins between the snapshot and now: instances are made and removed until they are

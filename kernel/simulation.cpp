@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "carriers.hpp"
 #include "text/names.hpp"
@@ -185,6 +186,29 @@ TableView Simulation::table(const std::string& name) const {
   throw Error(Exit::invalid_input, "there is no table " + quote(name) + "; " + suggest_table(name));
 }
 
+// Of a path such as "/rover/odom", whose set is not named: the table of the row's set whose quantity is nearest, for
+// that row; "" if there is none.
+std::string Simulation::of_named_row(const std::string& path, const std::set<std::string>& tables) const {
+  std::istringstream parts(path);
+  const std::string wanted = path.substr(path.rfind('/') + 1);
+  for (std::string part; std::getline(parts, part, '/');) {
+    for (const auto& set : standard_.sets) {
+      const Set* here = part.empty() ? nullptr : board_.find_set(set.name);
+      if (!here || !here->is_named() || here->find(part) < 0) continue;
+      std::vector<std::string> quantities;
+      const std::string begin = set.name + std::string("/*/");
+      for (const auto& table : tables) {
+        if (table.starts_with(begin)) quantities.push_back(table.substr(begin.size()));
+      }
+      const auto longer = std::find_if(quantities.begin(), quantities.end(),
+                                       [&](const std::string& each) { return each.starts_with(wanted); });
+      const std::string near = longer == quantities.end() ? nearest(wanted, quantities) : *longer;
+      if (!near.empty()) return std::string(set.name) + '/' + part + '/' + near;
+    }
+  }
+  return "";
+}
+
 // Tables of the same set that there are, and standard ones whose provider would join; the nearest by its quantity or by
 // another word for it. Of a set that has none: all tables.
 std::string Simulation::suggest_table(const std::string& name) const {
@@ -210,7 +234,12 @@ std::string Simulation::suggest_table(const std::string& name) const {
     if (table.substr(0, table.find('/')) == wanted_set && table.find('@') == table.npos)
       of_word[table.substr(table.rfind('/') + 1)] = table;
   }
-  if (of_word.empty()) return suggest(name, {valid.begin(), valid.end()});
+  if (of_word.empty()) {
+    const std::string meant = of_named_row(name, valid);
+    return meant.empty()
+               ? suggest(name, {valid.begin(), valid.end()})
+               : "did you mean " + quote(meant) + "? expected SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows";
+  }
   std::vector<std::string> words, tables;
   for (const auto& [word, table] : of_word) words.push_back(word);
   for (const auto& table : valid) {

@@ -122,6 +122,7 @@ class Simulation {
   std::shared_ptr<Library> load_library(const InstanceDeclaration& declaration);
   void add_providers();
   std::string suggest_table(const std::string& name) const;
+  std::string of_named_row(const std::string& path, const std::set<std::string>& tables) const;
   void relink();
   std::size_t find(const std::string& instance) const;
   void insert_at(std::size_t at, std::vector<InstanceDeclaration> declarations);

@@ -1,5 +1,6 @@
 // Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "claim.hpp"
@@ -17,7 +18,8 @@ std::size_t Simulation::find(const std::string& instance) const {
     if (instances_[i]->name() == instance) return i;
     valid.push_back(instances_[i]->name());
   }
-  throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid));
+  throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid) +
+                                       plugin_hint(instance, whose_plugin(world_.instances, instance)));
 }
 
 // Destroys the old instance only after the new one is linked.
@@ -203,13 +205,52 @@ std::vector<ParameterInfo> Simulation::parameters() const {
   return result;
 }
 
-ParameterInfo Simulation::parameter(const std::string& path) const {
-  std::vector<std::string> valid;
-  for (const auto& info : parameters()) {
-    if (info.path == path) return info;
-    valid.push_back(info.path);
+namespace {
+
+std::string owner_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+// True if the help has the word as one of its own.
+bool explains(const std::string& help, const std::string& word) {
+  constexpr std::size_t telling = 4;  // letters
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (auto at = help.find(word); word.size() >= telling && at != help.npos; at = help.find(word, at + 1)) {
+    const auto end = at + word.size();
+    if ((at == 0 || !is_letter(help[at - 1])) && (end == help.size() || !is_letter(help[end]))) return true;
   }
-  throw Error(Exit::invalid_input, "there is no parameter " + quote(path) + "; " + suggest(path, valid));
+  return false;
+}
+
+// What to say of a path that is no parameter: what it names, if it is short of a name; whose plugin it begins with; and
+// of its owner's parameters the one that is meant, by its name or by its help.
+std::string unknown_parameter(const std::string& path, const std::vector<ParameterInfo>& all,
+                              const std::string& owner_by_plugin) {
+  const std::string what = "there is no parameter " + quote(path) + "; ", owner = owner_of(path);
+  const std::string name = path.substr(path.find('/') == path.npos ? 0 : owner.size() + 1);
+  std::vector<std::string> valid, below, own, meant;
+  for (const auto& info : all) {
+    valid.push_back(info.path);
+    if (info.path.starts_with(path + '/')) below.push_back(info.path);
+    if (owner_of(info.path) != owner) continue;
+    own.push_back(info.path.substr(owner.size() + 1));
+    if (explains(info.declared->help, name)) meant.push_back(own.back());
+  }
+  if (valid.empty()) return what + "this world has none, as no plugin has any or reads its elements";
+  if (!below.empty()) return what + "it has several: " + expected_one_of(below);
+  if (own.empty() && !owner_by_plugin.empty())
+    return what + owner + " is the plugin of " + quote(owner_by_plugin) + "; did you mean " +
+           quote(owner_by_plugin + '/' + name) + "?";
+  if (own.empty()) return what + suggest(path, valid);
+  const std::string question = meant.size() == 1 ? "; did you mean " + quote(meant[0]) + "?" : did_you_mean(name, own);
+  return what + quote(owner) + " has " + listed(own) + question;
+}
+
+}  // namespace
+
+ParameterInfo Simulation::parameter(const std::string& path) const {
+  const auto all = parameters();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& info) { return info.path == path; });
+  if (found != all.end()) return *found;
+  throw Error(Exit::invalid_input, unknown_parameter(path, all, whose_plugin(world_.instances, owner_of(path))));
 }
 
 namespace {

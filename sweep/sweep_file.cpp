@@ -97,8 +97,16 @@ Variation variation_of(const XmlElement& element) {
                     fmt::format("{}= needs {}= beside it", list, std::string(list) == "values" ? "set" : "instance"));
   }
   if (worlds) return {Variation::Kind::world, "", words_of(*worlds), worlds->place};
-  if (set) return {Variation::Kind::parameter, set->value, words_of(required(element, "values")), set->value_place};
-  return {Variation::Kind::plugin, instance->value, words_of(required(element, "plugins")), instance->value_place};
+  if (!set)
+    return {Variation::Kind::plugin, instance->value, words_of(required(element, "plugins")), instance->value_place};
+  Variation result{Variation::Kind::parameter, set->value, words_of(required(element, "values")), set->value_place};
+  for (const Word& word : result.values) {
+    if (word.text.find(',') != word.text.npos && word.text.find_first_not_of("0123456789.,+-eE") == word.text.npos)
+      throw invalid(word.place, "values: " + quote(word.text) +
+                                    " is not a number; expected numbers with blanks between "
+                                    "them, and a point in each: \"1.5 2 2.5\"");
+  }
+  return result;
 }
 
 MetricDeclaration metric_of(const XmlElement& element) {

@@ -10,6 +10,22 @@ namespace muster {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// The folders in this one that have a world.xml, as `the worlds "a/b", "a/c"`; "" if there are none.
+std::string worlds_below(const fs::path& folder) {
+  std::error_code failed;
+  std::vector<std::string> found;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, failed), end; !failed && at != end;
+       at.increment(failed)) {
+    if (fs::exists(at->path() / "world.xml", failed)) found.push_back(quote(at->path().string()));
+  }
+  std::sort(found.begin(), found.end());
+  return found.empty() ? "" : (found.size() == 1 ? "the world " : "the worlds ") + listed(found);
+}
+
+}  // namespace
+
 std::string near_file(const fs::path& path) {
   constexpr std::size_t most_entries = 10'000;
   std::error_code failed;
@@ -29,6 +45,7 @@ std::string near_file(const fs::path& path) {
   if (near.empty() && path.filename() == "world.xml") {  // of a folder that was named: its only other world
     std::erase_if(names, [](const std::string& name) { return !name.ends_with(".xml"); });
     if (names.size() == 1) near = names[0];
+    if (const std::string below = worlds_below(folder); !below.empty()) return "; it holds " + below;
   }
   return near.empty() ? "" : "; did you mean " + quote((folder / near).string()) + "?";
 }

@@ -52,10 +52,10 @@ const XmlAttribute* XmlElement::attribute(std::string_view wanted) const {
   return found == attributes.end() ? nullptr : &*found;
 }
 
-XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root) {
+XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root, const InPlaceOfText& in_place_of_text) {
   const TextFile file = read_text_file(path, most_of_xml);
   if (file.text.empty()) throw invalid({file.file}, "is empty; expected an XML element");
-  const std::vector<XmlSpot> spots = scan_xml(file, check_root);
+  const std::vector<XmlSpot> spots = scan_xml(file, check_root, in_place_of_text);
   tinyxml2::XMLDocument document;
   if (document.Parse(file.text.data(), file.text.size()) != tinyxml2::XML_SUCCESS) {
     throw invalid({file.file, document.ErrorLineNum()}, std::string("is not well-formed XML: ") + document.ErrorName());

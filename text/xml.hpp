@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,12 @@ struct XmlElement {
 // Called with the root element's name before the rest of the file is read; throws where it is another than expected.
 using CheckRoot = void (*)(const std::string& name, const Place& place);
 
+// What to write in the place of a text that stands in an element: called with the names of the elements that are open
+// there, the root first; "" for what is said of any file.
+using InPlaceOfText = std::function<std::string(const std::vector<std::string_view>& open, std::string_view text)>;
+
 // The root element of a file of UTF-8 text, of at most 16 MB. Throws Error with file, line and column of the fault.
-XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root = nullptr);
+XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root = nullptr,
+                    const InPlaceOfText& in_place_of_text = {});
 
 }  // namespace muster

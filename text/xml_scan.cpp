@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "names.hpp"
 
@@ -36,7 +37,8 @@ bool is_xml_character(std::uint32_t code) {
 
 class Scan {
  public:
-  Scan(const TextFile& file, CheckRoot check_root) : file_(file), text_(file.text), check_root_(check_root) {}
+  Scan(const TextFile& file, CheckRoot check_root, const InPlaceOfText& in_place_of_text)
+      : file_(file), text_(file.text), check_root_(check_root), in_place_of_text_(in_place_of_text) {}
 
   std::vector<XmlSpot> run() {
     check_characters();
@@ -84,7 +86,12 @@ class Scan {
     const std::string_view words = text_.substr(at_, text_.find_first_of("<\r\n", at_) - at_);
     if (text_.substr(0, at_).find('<') == text_.npos)
       fail(at_, "the file begins with " + quote(words) + "; expected XML, which begins with <");
-    fail(at_, "the text " + quote(words) + " stands between elements; expected elements and comments only" +
+    const std::string what = "the text " + quote(words) + " stands between elements; ";
+    std::vector<std::string_view> names;
+    for (const Name& each : open_) names.push_back(each.name);
+    const std::string instead = in_place_of_text_ ? in_place_of_text_(names, words) : "";
+    if (!instead.empty()) fail(at_, what + instead);
+    fail(at_, what + "expected elements and comments only" +
                   (open_.size() < 2 ? "" : ", and values as attributes: <" + as_attribute(words) + "/>"));
   }
 
@@ -273,6 +280,7 @@ class Scan {
   const TextFile& file_;
   const std::string_view text_;
   const CheckRoot check_root_;
+  const InPlaceOfText& in_place_of_text_;
   std::size_t at_ = 0;
   std::size_t parts_ = 0;
   std::size_t tag_ = 0;  // start of the present tag
@@ -287,6 +295,8 @@ class Scan {
 
 }  // namespace
 
-std::vector<XmlSpot> scan_xml(const TextFile& file, CheckRoot check_root) { return Scan(file, check_root).run(); }
+std::vector<XmlSpot> scan_xml(const TextFile& file, CheckRoot check_root, const InPlaceOfText& in_place_of_text) {
+  return Scan(file, check_root, in_place_of_text).run();
+}
 
 }  // namespace muster

@@ -16,6 +16,6 @@ struct XmlSpot {
 };
 
 // In document order: each element's '<', then the name and the value of each of its attributes.
-std::vector<XmlSpot> scan_xml(const TextFile& file, CheckRoot check_root);
+std::vector<XmlSpot> scan_xml(const TextFile& file, CheckRoot check_root, const InPlaceOfText& in_place_of_text);
 
 }  // namespace muster

@@ -83,6 +83,11 @@ class Doubts {
     std::map<Key, const RowDeclaration*> first;
     for (const Shape& wall : walls_) {
       const double* c = wall.cells;
+      const double* farthest = std::max_element(c, c + 4, [](double a, double b) { return std::abs(a) < std::abs(b); });
+      if (std::abs(*farthest) > extent)
+        throw invalid(wall.row->place, "wall " + quote(wall.row->name) + " reaches to " + print_real(*farthest) +
+                                           " m, beyond the scene; expected coordinates within 1000 m; are these "
+                                           "millimetres?");
       const bool is_turned = std::tie(c[2], c[3]) < std::tie(c[0], c[1]);  // ends may be exchanged
       const double* a = is_turned ? c + 2 : c;
       const double* b = is_turned ? c : c + 2;

@@ -1,6 +1,7 @@
 // A world file as a whole.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "doubts.hpp"
@@ -81,7 +82,45 @@ std::string foreign_element(const std::string& name) {
   if (name == "include") return "; a robot is <robot model=\"...\" at=\"0 0 0\"/>, and a world is one file";
   if (name == "light" || name == "scene" || name == "gui") return "; leave it out";
   if (name == "physics" || name == "gravity") return "; the physics is a plugin, such as <physics.simbody/>";
+  if (name == "node")
+    return "; a node is a plugin, such as <control.waypoint robot=\"...\"/>: muster plugins lists them";
   return "";
+}
+
+// The plugin that an element of another simulator is here, such as <physics type="ode"> and <sensor type="imu">.
+std::string as_plugin(const XmlElement& element) {
+  static const std::map<std::string, std::string> kinds = {{"physics", "physics"},
+                                                           {"sensor", "sensors"},
+                                                           {"radio", "radio"},
+                                                           {"network", "network"},
+                                                           {"controller", "control"}};
+  const auto kind = kinds.find(element.name);
+  const XmlAttribute* type = element.attribute("type");
+  return type && kind != kinds.end() ? kind->second + '.' + type->value : "";
+}
+
+bool is_element(const Standard& standard, std::string_view name) {
+  return name == "at" || name == "swap" || name == "record" || name.find('.') != name.npos ||
+         std::any_of(standard.elements.begin(), standard.elements.end(),
+                     [&](const auto& known) { return name == known.name; });
+}
+
+// SDF's <pose>x y z roll pitch yaw</pose>; a text in an element that a world has not is that element's fault.
+std::string in_place_of_text(const Standard& standard, const std::vector<std::string_view>& open,
+                             std::string_view text) {
+  if (open.size() < 3) return "";
+  const std::string_view own = open.back(), around = open[open.size() - 2];
+  if (!is_element(standard, open[1]))
+    return "<" + std::string(open[1]) + "> is no element of a world" + foreign_element(std::string(open[1]));
+  const auto numbers = parse_reals(text, 6);
+  if (own != "pose" || !numbers) return "";
+  const auto list = [&](std::size_t from, std::size_t to) {
+    std::string result;
+    for (std::size_t i = from; i < to; ++i) result += (i > from ? " " : "") + print_real((*numbers)[i]);
+    return result;
+  };
+  return "expected attributes: <" + std::string(around) + " at=\"" + list(0, 3) + "\"" +
+         (around == "robot" ? " heading=\"" + list(5, 6) + '"' : "") + "/>";
 }
 
 // An element with a dot in its name is a plugin; any other must be known.
@@ -102,12 +141,13 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
       if (element.name == known.name) return;  // read_rows() has read it
       valid.push_back(known.name);
     }
-    const XmlAttribute* type = element.attribute("type");  // as other simulators name their parts
-    throw invalid(element.place, "<" + element.name +
-                                     "> is no element of a world; expected a plugin (with a dot in its name" +
-                                     (type ? ": <" + element.name + "." + type->value + "/>" : "") + ") or " +
-                                     expected_one_of(valid).substr(9) + did_you_mean(element.name, valid) +
-                                     (type ? "" : foreign_element(element.name)));
+    const std::string plugin = as_plugin(element), foreign = foreign_element(element.name);
+    throw invalid(element.place,
+                  "<" + element.name + "> is no element of a world; expected a plugin (with a dot in its name" +
+                      (plugin.empty() ? "" : ": <" + plugin + "/>") + ") or " + expected_one_of(valid).substr(9) +
+                      (!plugin.empty()    ? ""
+                       : !foreign.empty() ? foreign
+                                          : did_you_mean(element.name, valid)));
   }
 }
 
@@ -129,7 +169,8 @@ void check_names(World& world) {
 World read_world(const std::filesystem::path& path, const Standard& standard) {
   World world;
   world.file = std::filesystem::is_directory(path) ? path / "world.xml" : path;
-  const XmlElement root = read_xml(world.file, check_root);
+  const XmlElement root = read_xml(world.file, check_root,
+                                   [&](const auto& open, auto text) { return in_place_of_text(standard, open, text); });
   read_root(root, world);
   read_rows(root, standard, world);
   for (const auto& child : root.children) read_child(child, standard, world);

@@ -20,6 +20,16 @@ const XmlAttribute* InstanceDeclaration::attribute(std::string_view wanted) cons
   return found == attributes.end() ? nullptr : &*found;
 }
 
+std::string whose_plugin(const std::vector<InstanceDeclaration>& instances, const std::string& plugin) {
+  const auto found = std::find_if(instances.begin(), instances.end(),
+                                  [&](const InstanceDeclaration& each) { return each.plugin == plugin; });
+  return found == instances.end() ? "" : found->name;
+}
+
+std::string plugin_hint(const std::string& plugin, const std::string& instance) {
+  return instance.empty() ? "" : "; " + plugin + " is the plugin of " + quote(instance);
+}
+
 InstanceDeclaration read_instance(const XmlElement& element, const std::string& plugin) {
   InstanceDeclaration result{plugin, plugin, 1, {}, {}, {}, element.place};
   for (const auto& given : element.attributes) {

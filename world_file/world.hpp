@@ -51,6 +51,11 @@ struct InstanceDeclaration {
   const XmlAttribute* attribute(std::string_view wanted) const;
 };
 
+// The name of the first instance that is this plugin; "" if there is none.
+std::string whose_plugin(const std::vector<InstanceDeclaration>& instances, const std::string& plugin);
+// `; control.waypoint is the plugin of "driver"`, where somebody has it.
+std::string plugin_hint(const std::string& plugin, const std::string& instance);
+
 // A plugin that is exchanged, inserted or removed while the run goes on.
 struct PluginChange {
   enum class Kind { swap, insert, remove };

@@ -94,7 +94,10 @@ Json read_json(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in) throw Error(Exit::io, file.string() + ": cannot be read; expected the regression.json of a diagnosis");
+  if (!in)
+    throw Error(Exit::io,
+                file.string() +
+                    ": cannot be read; expected a folder that muster diagnose WORLD --data FILE --out FOLDER wrote");
   Json json = Json::parse(text.str(), nullptr, false);
   if (!json.is_object() || json.value("format", "") != format_name)
     throw Error(Exit::invalid_input,

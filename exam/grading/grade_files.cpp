@@ -185,6 +185,12 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
     }
     add(grades, truth, verdict);
   }
+  if (grades.missing.size() == files.size())
+    throw std::invalid_argument(
+        fmt::format("{}: has no readable report of any of the {} cases; expected what muster diagnose --json prints, "
+                    "as muster exam "
+                    "run FOLDER keeps it",
+                    reports.string(), files.size()));
   grades.seconds = costs_in(reports);
   return grades;
 }

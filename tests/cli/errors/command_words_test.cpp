@@ -35,4 +35,73 @@ TEST(CommandWords, SayWhatWasMeant) {
               HasSubstr("\"m.csv\" is no folder, but a file; expected its folder, \".\""));
 }
 
+// A world with a channel, so that there are parameters and instances to name.
+std::string said_beside_a_channel(const std::vector<std::string>& words) {
+  const ProgramFolder folder;
+  folder.write("lab/world.xml",
+               R"(<world name="w" dt="1" until="2"><station name="a" at="0 0 1"/><station name="b" at="4 0 1"/>)"
+               R"(<radio.multiwall name="channel"/></world>)");
+  folder.write("m.csv", "t[s],tx,rx,rssi[dBm]\n0,a,b,-50\n");
+  folder.write("sweep.xml", R"(<sweep world="lab" seeds="1"><vary set="channel/n" values="2,3,4"/></sweep>)");
+  EXPECT_EQ(folder.muster({"run", "lab", "--save", "early"}).exit, 0);
+  const Outcome outcome = folder.muster(words);
+  EXPECT_EQ(outcome.exit, 2) << outcome.out;
+  return outcome.err;
+}
+
+TEST(CommandWords, ByThePluginInPlaceOfTheInstance) {
+  EXPECT_EQ(said_beside_a_channel({"run", "lab", "--set", "radio.multiwall/n=3"}),
+            "muster: error: there is no parameter \"radio.multiwall/n\"; radio.multiwall is the plugin of "
+            "\"channel\"; did you mean \"channel/n\"?\n");
+  EXPECT_THAT(
+      said_beside_a_channel({"swap", "lab", "--at", "1", "--instance", "radio.multiwall", "--plugin", "test.good"}),
+      HasSubstr("--instance: no instance is called \"radio.multiwall\"; expected channel; radio.multiwall is the "
+                "plugin of \"channel\"\n"));
+}
+
+TEST(CommandWords, AParameterByItsMeaning) {
+  EXPECT_THAT(
+      said_beside_a_channel({"run", "lab", "--set", "channel/exponent=3"}),
+      HasSubstr("there is no parameter \"channel/exponent\"; \"channel\" has tx_power, l0, n, model, radius; did "
+                "you mean \"n\"?"));
+  EXPECT_THAT(
+      said_beside_a_channel({"run", "lab", "--set", "channel=3"}),
+      HasSubstr("there is no parameter \"channel\"; it has several: expected one of channel/tx_power, channel/l0"));
+}
+
+TEST(CommandWords, AFolderOfWorldsAndArgumentsExchanged) {
+  EXPECT_EQ(said_beside_a_channel({"check", "."}),
+            "muster: error: ./world.xml: no such file; it holds the world \"./lab\"\n");
+  EXPECT_EQ(said_beside_a_channel({"fit", "m.csv", "--data", "lab"}),
+            "muster: error: muster fit: --data lab is the folder of a world; expected muster fit lab --data TABLE\n");
+  EXPECT_EQ(said_beside_a_channel({"compare", "lab", "channel:radio.friis"}),
+            "muster: error: muster compare: \"channel:radio.friis\" is no world; expected INSTANCE=PLUGIN, "
+            "channel=radio.friis\n");
+}
+
+TEST(CommandWords, ATableWithoutItsColumn) {
+  EXPECT_EQ(said_beside_a_channel({"run", "lab", "--out", "o", "--plot", "radio/a/mount"}),
+            "muster: error: --plot \"radio/a/mount\" has no column; expected one of the table's, such as "
+            "\"radio/a/mount/robot\"\n");
+}
+
+TEST(CommandWords, ListsWithCommasCornersAndPlugins) {
+  EXPECT_EQ(
+      said_beside_a_channel({"sweep", "sweep.xml", "--out", "o"}),
+      "muster: error: sweep.xml:1:60: values: \"2,3,4\" is not a number; expected numbers with blanks between them, "
+      "and a point in each: \"1.5 2 2.5\"\n");
+  EXPECT_EQ(said_beside_a_channel({"map", "lab", "--out", "o", "--area", "0", "12", "0", "8"}),
+            "muster: error: --area: 0 12 0 8: X0 and X1 are both 0; expected X0 Y0 X1 Y1, two corners\n");
+  EXPECT_EQ(said_beside_a_channel({"describe", "multiwall"}),
+            "muster: error: there is no element \"multiwall\", and a plugin has a dot in its name; expected "
+            "radio.multiwall\n");
+}
+
+TEST(CommandWords, AStateAfterTheEnd) {
+  EXPECT_EQ(
+      said_beside_a_channel({"run", "lab", "--restore", "early", "--until", "1"}),
+      "muster: error: --restore: early stands at 2 s, after the end of the run at 1 s; expected --until above 2: it "
+      "is a time of the world, not a duration\n");
+}
+
 }  // namespace

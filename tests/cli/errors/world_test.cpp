@@ -29,6 +29,43 @@ TEST(Fault5, WhatIsMisspeltIsToldWithTheNearestName) {
   folder.expect_refused(R"(<wolrd until="1"/>)", "world.xml:1:1: the root element is <wolrd>; expected <world>");
 }
 
+TEST(Fault5, HabitsOfSdfAndRos) {
+  const ProgramFolder folder;
+  folder.expect_refused(
+      world_of(R"(<node pkg="nav" type="waypoint" name="driver"/>)"),
+      "world.xml:1:36: <node> is no element of a world; expected a plugin (with a dot in its name) or one of at, "
+      "swap, record, material, wall, walls, door, floor, mesh, station, robot; a node is a plugin, such as "
+      "<control.waypoint robot=\"...\"/>: muster plugins lists them");
+  folder.expect_refused(world_of(R"(<robot name="r"><pose>3 2 0 0 0 1.5</pose></robot>)"),
+                        "world.xml:1:58: the text \"3 2 0 0 0 1.5\" stands between elements; expected attributes: "
+                        "<robot at=\"3 2 0\" heading=\"1.5\"/>");
+  folder.expect_refused(world_of(R"(<physics type="ode"><max_step_size>0.001</max_step_size></physics>)"),
+                        "world.xml:1:71: the text \"0.001\" stands between elements; <physics> is no element of a "
+                        "world; the physics is a plugin, such as <physics.simbody/>");
+  folder.expect_refused(
+      world_of(R"(<station name="rover" at="0 0 1"/><record table="/rover/traffics"/>)"),
+      "world.xml:1:70: record: there is no table \"/rover/traffics\"; did you mean \"radio/rover/traffic\"? expected "
+      "SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows");
+}
+
+TEST(Fault5, APathThatStopsAtAnElement) {
+  const ProgramFolder folder;
+  folder.expect_refused(
+      world_of(
+          R"(<material name="m" loss="1"/><wall name="w" from="0 0" to="5 0" material="m"/><door name="d" wall="w" at="1" )"
+          R"(width="1"/><radio.multiwall/><at t="0.5"><set path="door/d" value="open"/></at>)"),
+      "world.xml:1:197: there is no parameter \"door/d\"; it has several: expected one of door/d/at, door/d/width, "
+      "door/d/height, door/d/state");
+}
+
+TEST(Fault5, WallsInMillimetres) {
+  const ProgramFolder folder;
+  folder.expect_refused(
+      world_of(R"(<material name="m" loss="1"/><wall name="w" from="0 0" to="12000 0" material="m"/>)"),
+      "world.xml:1:65: wall \"w\" reaches to 12000 m, beyond the scene; expected coordinates within "
+      "1000 m; are these millimetres?");
+}
+
 TEST(Fault5, WordsOfTheCommandLineToo) {
   const ProgramFolder folder;
   const auto misspelt = folder.muster({"chekc"});  // the list of verbs grows
