@@ -196,7 +196,10 @@ int run_compare(const Arguments& arguments) {
   line.option("--metric", words.metrics,
               "TABLE/COLUMN, such as robot/leader/pose/x: what the ladder shows in place of moved and delivered")
       .one_word_each();
+  line.option("--measured", words.measured, "a log of poses (docs/reference/table_format.md): the ladder's last body");
   line.parse(arguments);
+  if (!words.ladder && !words.measured.empty())
+    throw Error(Exit::invalid_input, "muster compare: --measured is of the ladder; expected --ladder beside it");
   if (words.ladder && !(words.others.empty() && words.within.empty() && words.record.empty()))
     throw Error(
         Exit::invalid_input,

@@ -121,10 +121,7 @@ void set_network(World& world, const Channel& channel, const std::string& plugin
 std::vector<Rung> ladder(const World& world, const Simulation& given) {
   const Channel channel = channel_of(given);
   World ideal = world;
-  if (!find(ideal, channel.path_loss))
-    throw Error(Exit::invalid_input, std::string(who) +
-                                         ": no instance of the world is a radio.multiwall, whose model the "
-                                         "first rungs set");
+  if (!find(ideal, channel.path_loss)) return {};
   const bool talks = !channel.network.empty();
   std::string shared = "network.lrwpan";
   if (const auto* own = find(ideal, channel.network); own && own->plugin != "network.ideal") shared = own->plugin;
@@ -153,6 +150,33 @@ std::vector<Rung> ladder(const World& world, const Simulation& given) {
   World contended = world;
   set_network(contended, channel, shared);
   put("+ contention", shared, std::move(contended), "multi_wall", true, true);
+  return result;
+}
+
+std::vector<Rung> ladder_of_bodies(const World& world, const Simulation& given, const std::filesystem::path& log) {
+  std::string physics;
+  for (const auto& each : given.instances()) {
+    if (claims(*each, MUSTER_WRITE, "robot/*/pose")) physics = each->name();
+  }
+  World own = world;
+  if (!find(own, physics)) return {};
+  std::vector<Rung> result;
+  const auto put = [&](const std::string& name, const std::string& plugin, const std::string& attribute,
+                       const std::string& value) {
+    World rung = world;
+    InstanceDeclaration& body = *find(rung, physics);
+    if (body.plugin != plugin) {
+      auto made = instance_of(physics, plugin, {}, who);
+      made.every = body.every;
+      body = std::move(made);
+    }
+    set(body, attribute, value);
+    result.push_back({name, plugin + ' ' + attribute + "=\"" + value + '"', std::move(rung)});
+  };
+  put("kinematic", "physics.planar", "through_walls", "true");
+  put("rolling", "physics.simbody", "integrator", "rk3");
+  put("slipping", "physics.simbody", "integrator", "midpoint");
+  if (!log.empty()) put("measured", "physics.replay", "file", std::filesystem::absolute(log).string());
   return result;
 }
 

@@ -53,8 +53,9 @@ Outcome climb(Rung rung, const std::vector<Metric>& metrics, const LadderWords& 
 
 std::string cell(double value) { return std::isnan(value) ? "-" : fmt::format("{:.4g}", value); }
 
-void print(const std::string& world, const std::vector<Outcome>& outcomes, const std::vector<Metric>& metrics) {
-  fmt::print("{}, to t = {} s, by rung of the ladder\n\n{:<14}", world, print_real(outcomes[0].time), "rung");
+void print(const std::string& title, const std::vector<Outcome>& outcomes, const std::vector<Metric>& metrics) {
+  if (outcomes.empty()) return;
+  fmt::print("{}, to t = {} s, by rung of the ladder\n\n{:<14}", title, print_real(outcomes[0].time), "rung");
   for (const Metric& metric : metrics) fmt::print("  {:>12}", metric.title());
   fmt::print("  made by\n");
   for (const Outcome& outcome : outcomes) {
@@ -65,8 +66,8 @@ void print(const std::string& world, const std::vector<Outcome>& outcomes, const
   }
 }
 
-Json json(const std::string& world, const std::vector<Outcome>& outcomes, const std::vector<Metric>& metrics) {
-  Json result{{"world", world}, {"rungs", Json::array()}};
+Json json(const std::vector<Outcome>& outcomes, const std::vector<Metric>& metrics) {
+  Json result = Json::array();
   for (const Outcome& outcome : outcomes) {
     Json rung{{"rung", outcome.rung.name},
               {"made_by", outcome.rung.change},
@@ -75,7 +76,7 @@ Json json(const std::string& world, const std::vector<Outcome>& outcomes, const 
     for (std::size_t i = 0; i < metrics.size(); ++i) {
       rung["metrics"].push_back({{"name", metrics[i].name}, {"unit", metrics[i].unit}, {"value", outcome.values[i]}});
     }
-    result["rungs"].push_back(std::move(rung));
+    result.push_back(std::move(rung));
   }
   return result;
 }
@@ -118,27 +119,54 @@ Exit run_ladder(const LadderWords& words) {
   const World world = world_of(words.world, words);
   std::vector<Rung> rungs;
   std::vector<Metric> metrics;
+  std::size_t channels = 0;
   {
     const auto given = made(world, words);
     rungs = ladder(world, *given);
-    metrics = metrics_of(words, *given);
+    channels = rungs.size();
+    for (Rung& body : ladder_of_bodies(world, *given, words.measured)) rungs.push_back(std::move(body));
+    if (!rungs.empty()) metrics = metrics_of(words, *given);
     given->close();
   }
+  if (rungs.empty())
+    throw Error(
+        Exit::invalid_input,
+        "muster compare --ladder: the world has neither a radio.multiwall, whose model the first rungs set, nor a "
+        "physics, which the others exchange");
   Progress progress("muster compare --ladder " + world.name);
   watch_interrupt();
-  std::vector<Outcome> outcomes;
+  std::vector<Outcome> of_channels, of_bodies;
+  std::vector<std::string> left_out;
   const double share = 1.0 / static_cast<double>(rungs.size());
-  for (Rung& rung : rungs) {
-    outcomes.push_back(
-        climb(std::move(rung), metrics, words, progress, share * static_cast<double>(outcomes.size()), share));
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
+    const bool is_body = i >= channels;
+    const std::string name = rungs[i].name;
+    try {
+      Outcome outcome = climb(std::move(rungs[i]), metrics, words, progress, share * static_cast<double>(i), share);
+      (is_body ? of_bodies : of_channels).push_back(std::move(outcome));
+    } catch (const Error& e) {  // a body that a robot of this world cannot have
+      if (!is_body || e.exit() != Exit::invalid_input || name == "measured") throw;
+      left_out.push_back(name + ": " + e.what());
+    }
     if (interrupted()) return Exit::interrupted;
   }
-  if (words.json)
-    fmt::print("{}\n", json(world.name, outcomes, metrics).dump(2));
-  else
-    print(world.name, outcomes, metrics);
+  if (words.json) {
+    const Json told{{"world", world.name},
+                    {"rungs", json(of_channels, metrics)},
+                    {"bodies", json(of_bodies, metrics)},
+                    {"left_out", left_out}};
+    fmt::print("{}\n", told.dump(2));
+  } else {
+    print(world.name, of_channels, metrics);
+    if (!of_channels.empty() && !of_bodies.empty()) fmt::print("\n");
+    print(world.name + " with other bodies", of_bodies, metrics);
+    for (const std::string& each : left_out) fmt::print("  left out: {}\n", each);
+  }
   std::fflush(stdout);
-  if (!words.out.empty()) write(words.out, world.name, outcomes, metrics);
+  if (words.out.empty()) return Exit::done;
+  std::vector<Outcome> all = std::move(of_channels);
+  for (Outcome& each : of_bodies) all.push_back(std::move(each));
+  write(words.out, world.name, all, metrics);
   return Exit::done;
 }
 

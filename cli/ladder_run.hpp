@@ -8,6 +8,7 @@ namespace muster::cli {
 struct LadderWords : RunOptions {
   std::string world;
   std::vector<std::string> metrics;
+  std::string measured;  // a log of poses: the last body's
 };
 
 // Prints a table, or JSON; with --out also ladder.csv and ladder.svg. Throws Error.

@@ -129,9 +129,14 @@ TEST(Ladder, RefusesWhatItCannotClimb) {
   folder.write("world.xml", calling_world());
   folder.write("way.csv", "x[m],y[m]\n100,0\n");
   folder.write("drive.xml", drive_world());
+  folder.write("bare.xml", "<world name=\"bare\" dt=\"0.1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/></world>");
   const std::pair<std::vector<std::string>, std::string> cases[] = {
-      {{"--ladder", "drive.xml"},
-       "muster compare --ladder: no instance of the world is a radio.multiwall, whose model the first rungs set"},
+      {{"--ladder", "bare.xml"},
+       "muster compare --ladder: the world has neither a radio.multiwall, whose model the first rungs set, nor a "
+       "physics, "
+       "which the others exchange"},
+      {{"world.xml", "drive.xml", "--measured", "way.csv"},
+       "muster compare: --measured is of the ladder; expected --ladder beside it"},
       {{"--ladder", "world.xml"},
        "muster compare --ladder: the world has neither robots nor messages; expected --metric TABLE/COLUMN"},
       {{"--ladder", "world.xml", "drive.xml"},
@@ -147,6 +152,37 @@ TEST(Ladder, RefusesWhatItCannotClimb) {
     all.insert(all.end(), words.begin(), words.end());
     expect_error(folder.muster(all), 2, message);
   }
+}
+
+std::vector<std::string> bodies(const nlohmann::json& told) {
+  std::vector<std::string> result;
+  for (const auto& body : told["bodies"]) result.push_back(body["rung"]);
+  return result;
+}
+
+// Away from limits all bodies go the same way; the replayed one goes where its log says, whatever is commanded.
+TEST(LadderOfBodies, GoesFromKinematicToMeasured) {
+  const CompareFolder folder;
+  folder.write("world.xml", drive_world());
+  folder.write("log.csv", "t[s],robot,x[m],y[m],yaw[rad]\n0,r,0,0,0\n4,r,3,0,0\n");
+  const auto told = folder.json({"--ladder", "world.xml", "--measured", "log.csv", "--metric", "robot/r/pose/x"});
+  EXPECT_THAT(told["rungs"], testing::IsEmpty()) << "it has no channel";
+  EXPECT_THAT(bodies(told), ElementsAre("kinematic", "rolling", "slipping", "measured"));
+  std::vector<double> x;
+  for (const auto& body : told["bodies"]) x.push_back(body["metrics"][0]["value"]);
+  EXPECT_THAT(x, ElementsAre(DoubleNear(1.2, 0.05), DoubleNear(x[0], 0.01), DoubleNear(x[0], 0.01), 3));
+  EXPECT_NE(x[1], x[2]);
+}
+
+TEST(LadderOfBodies, SaysWhichBodyARobotCannotHave) {
+  const CompareFolder folder;
+  folder.write("world.xml",
+               "<world name=\"air\" dt=\"0.02\" until=\"0.1\"><robot name=\"r\" model=\"hummingbird\" at=\"0 0 "
+               "0.06\"/><physics.simbody name=\"physics\"/></world>");
+  const auto told = folder.json({"--ladder", "world.xml", "--metric", "robot/r/pose/z"});
+  EXPECT_THAT(bodies(told), testing::Contains("slipping"));
+  EXPECT_EQ(told["bodies"].size() + told["left_out"].size(), 3u);
+  EXPECT_THAT(told["left_out"], testing::Not(testing::IsEmpty()));
 }
 
 }  // namespace
