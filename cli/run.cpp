@@ -11,6 +11,7 @@
 #include "live_view.hpp"
 #include "pacing.hpp"
 #include "restored_run.hpp"
+#include "run_costs.hpp"
 #include "run_log_files.hpp"
 #include "run_options.hpp"
 #include "run_pictures.hpp"
@@ -27,7 +28,7 @@ namespace {
 struct RunWords : RunOptions {
   std::string world, save, restore;
   uint64_t digest_every = 0;
-  bool watch = false, expected = false, real_time = false;
+  bool watch = false, expected = false, real_time = false, cost = false;
   std::optional<std::string> speed;
   bool view = false;
   ViewSettings view_at;
@@ -43,6 +44,7 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--save", words.save, "write the state at the end to this file");
   line.option("--restore", words.restore, "begin from a state that --save wrote");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks").at_least(1);
+  line.flag("--cost", words.cost, "print the CPU time of each plugin, and of a link in those of the radio");
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
   line.flag("--real-time", words.real_time, "at the pace of the clock: a second of the run takes a second");
   line.option("--speed", words.speed, "with --real-time: so many seconds of the run a second");
@@ -125,6 +127,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
     json["digests"].push_back({{"tick", tick}, {"digest", hexadecimal(digest)}});
   json["files"] = Json::array();
   for (const auto& file : files) json["files"].push_back(file.string());
+  if (words.cost) json["cost"] = json_of(costs_of(run));
   if (words.json) {
     fmt::print("{}\n", json.dump(2));
     return;
@@ -141,6 +144,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
         fmt::print("  {}/{} {} = {}\n", instance, table, column, value.is_null() ? "" : print_real(value.real()));
     }
   }
+  if (words.cost) print(costs_of(run));
   for (const auto& file : files) fmt::print("  wrote {}\n", file.string());
 }
 
@@ -211,7 +215,9 @@ World asked_world(RunWords& words) {
 // The run from its start to its end. False: a client wants it anew.
 bool run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
   const auto& records = world.records;
-  Simulation run(world, standard(), {plugin_path(words.plugins), words.workers, {}});
+  Options options{plugin_path(words.plugins), words.workers, {}};
+  options.costs = words.cost;
+  Simulation run(world, standard(), std::move(options));
   check_records(run);
   for (const std::string& term : double_terms(run)) fmt::print(stderr, "muster: warning: {}\n", term);
   if (!words.restore.empty()) restore(run, words.restore);

@@ -120,6 +120,10 @@ class Instance {
   void bind(uint64_t tick);
   // One call of step(); its error is kept in failure(). Never throws.
   bool step(const muster_tick& now) noexcept;
+  // CPU time of its steps, where the run asks for costs.
+  struct Cost {
+    uint64_t nanoseconds = 0, steps = 0;
+  } cost{};
   // Message of the last failed callback, from the plugin or from the kernel on its behalf.
   std::string said() const { return error_.empty() ? "gave no reason" : error_; }
   // The error of a failed callback, whole, and ready for the next call.

@@ -1,4 +1,6 @@
 // One tick: phases in order, batches inside them, and everything taken back if anything fails.
+#include <time.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +11,15 @@
 #include "text/number.hpp"
 
 namespace muster {
+namespace {
+
+uint64_t thread_nanoseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
+}
+
+}  // namespace
 
 void Simulation::step() {
   do_planned();
@@ -104,7 +115,10 @@ void Simulation::step_all(const muster_tick& tick) {
     Instance& instance = *due_[i];
     if (instance.is_direct()) prepare_cells(instance, tick.index);
     instance.bind(tick.index);
-    std::string fault = instance.step(tick) ? check_cells(instance, board_) : instance.said();
+    const uint64_t began = options_.costs ? thread_nanoseconds() : 0;
+    const bool is_done = instance.step(tick);
+    if (options_.costs) instance.cost.nanoseconds += thread_nanoseconds() - began, ++instance.cost.steps;
+    std::string fault = is_done ? check_cells(instance, board_) : instance.said();
     if (fault.empty()) return;
     const std::lock_guard lock(faulty_);
     faults_.emplace(i, std::move(fault));

@@ -27,8 +27,8 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
   expect_refused(
       "<world name=\"w\" until=\"1\"><physics type=\"ode\"><max_step_size>0.001</max_step_size></physics>"
       "</world>",
-      "world.xml:1:62: the text \"0.001\" stands between elements; expected elements and comments only, and "
-      "values as attributes: <physics max_step_size=\"0.001\"/>");
+      "world.xml:1:62: the text \"0.001\" stands between elements; <physics> is no element of a world; the "
+      "physics is a plugin, such as <physics.simbody/>");
   expect_refused(
       "<world name=\"w\" until=\"1\"><physics type=\"ode\"/></world>",
       "world.xml:1:27: <physics> is no element of a world; expected a plugin (with a dot in its name: "

@@ -62,7 +62,7 @@ TEST(FirstHour, ASwapForAnotherKindOfPlugin) {
   EXPECT_EQ(warnings_of(rover + "<physics.planar name=\"physics\"/><radio.multiwall/>\n" +
                         "<swap at=\"0.5\" instance=\"physics\" plugin=\"radio.multiwall\"/>"),
             "warning: world.xml:4:1: the swap puts radio.multiwall/2, of the phase RADIO, in the place of "
-            "physics.planar/1, of PHYSICS, whose work nobody does then\n");
+            "physics.planar/1, of PHYSICS, whose work nobody does then; expected a plugin of PHYSICS\n");
 }
 
 TEST(FirstHour, WallsThatThePhysicsDrivesThrough) {
