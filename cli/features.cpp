@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "diagnosis/calibration/data_doubts.hpp"
 #include "diagnosis/data/dataset.hpp"
+#include "diagnosis/radio/links/geometry_checks.hpp"
 #include "diagnosis/radio/links/link_features.hpp"
 #include "text/json.hpp"
 #include "text/text_table_writer.hpp"
@@ -48,17 +50,29 @@ std::vector<std::size_t> histogram(const std::vector<int>& counts) {
   return rows;
 }
 
-void print_json(const Dataset& data, const Features& f, const std::string& file) {
+// What looks like another unit, site or name: as fit and diagnose say it.
+std::vector<std::string> notes_of(const LinkModel& model, const Dataset& data) {
+  std::vector<std::string> notes = data.notes;
+  for (const auto& more : {notes_on_radios(model, data), doubts_of(model, data), check_places(model, data)})
+    notes.insert(notes.end(), more.begin(), more.end());
+  return notes;
+}
+
+void print_json(const Dataset& data, const Features& f, const std::vector<std::string>& notes,
+                const std::string& file) {
   const auto [nearest, farthest] = std::minmax_element(f.distance.begin(), f.distance.end());
   Json result = {{"rows", data.rows()}, {"distance_m", {*nearest, *farthest}}, {"walls", Json::object()}};
   for (std::size_t m = 0; m < f.materials.size(); ++m) result["walls"][f.materials[m]] = histogram(f.by_material[m]);
   if (!file.empty()) result["file"] = file;
+  result["notes"] = notes;
   fmt::print("{}\n", result.dump(2));
 }
 
-void print_text(const Dataset& data, const Features& f, const std::string& file) {
+void print_text(const Dataset& data, const Features& f, const std::vector<std::string>& notes,
+                const std::string& file) {
   const auto [nearest, farthest] = std::minmax_element(f.distance.begin(), f.distance.end());
   fmt::print("{} readings, {:.2f} to {:.2f} m\n", data.rows(), *nearest, *farthest);
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
   for (std::size_t m = 0; m < f.materials.size(); ++m) {
     fmt::print("walls of {}:", f.materials[m]);
     const auto rows = histogram(f.by_material[m]);
@@ -89,12 +103,13 @@ int run_features(const Arguments& arguments) {
   files.writes(out, "--out");
   const Dataset data = read_dataset(file);
   const LinkModel model(world, file, plugin_path(plugins));
+  const std::vector<std::string> notes = notes_of(model, data);
   const Features features = features_of(model);
   if (!out.empty()) write_table(out, data, features);
   if (json)
-    print_json(data, features, out);
+    print_json(data, features, notes, out);
   else
-    print_text(data, features, out);
+    print_text(data, features, notes, out);
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "declared_pages.hpp"
+#include "kernel/callback_watch.hpp"
 #include "kernel/crash_report.hpp"
 #include "text/names.hpp"
 #include "verbs.hpp"
@@ -105,6 +106,7 @@ int unwritten(int reason) {
 
 int main(int argc, char** argv) {
   report_crashes();
+  watch_callbacks();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end
   int code = 0;
   try {

@@ -37,6 +37,19 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+// The words of a name such as "wheel_left_link", sorted.
+std::vector<std::string> words_of(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const char c : name) {
+    if (c == '_' || c == '-')
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  std::sort(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path, std::size_t limit) {
@@ -99,6 +112,11 @@ std::string print_exactly(double value) {
 }
 
 std::string nearest(std::string_view name, const std::vector<std::string>& names) {
+  const auto words = words_of(name);
+  for (const std::string& candidate : names) {  // the same words in another order
+    if (words.size() > 1 && candidate != name && words_of(candidate) == words)
+      return "; did you mean '" + candidate + "'?";
+  }
   const std::string* best = nullptr;
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;  // beyond that number of edits it is another word
   for (const std::string& candidate : names) {

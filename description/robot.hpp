@@ -228,6 +228,9 @@ LimbModel limb_model(const Robot& robot, const LimbJoint& limb);
 // Properties of a joint that no engine here models; "" if there are none.
 std::string unmodelled(const Joint& joint);
 
+// Wheels by their names that do not turn, as "joint 'j' of link 'l' (FILE:LINE) is fixed, ..."; "" if there are none.
+std::string wheels_that_stand(const Robot& robot);
+
 // Mass of the whole robot, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);
 
@@ -246,8 +249,11 @@ struct UrdfSetting {
 Robot read_robot(const std::string& path, Meshes meshes = Meshes::import, const UrdfSetting& setting = {});
 
 // The file of model "scarab" (scarab.urdf in the first of the directories that has it) or "path/to/my.urdf" or ".xml"
-// (absolute, or relative to one of the directories); throws with the name and the nearest valid one.
+// (absolute, or relative to one of the directories, of which the last are the world's own and come first then); throws
+// with the name and the nearest valid one.
 std::string find_model(const std::string& model, const std::vector<std::string>& directories);
+// A model's name that two files have, in words; "" where one has it. The first is read.
+std::string doubt_of_model(const std::string& model, const std::vector<std::string>& directories);
 
 // The attributes `packages` and `fittings` of a robot, with their paths found in the directories; "" stays.
 UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::string>& directories);

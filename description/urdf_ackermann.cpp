@@ -51,7 +51,8 @@ void check_kingpin(const Source& source, const XMLElement& element, const Joint&
     source.fail(line, what + "does not turn about the body's z axis: it cannot steer");
   if (std::abs(frame.translation().y() - y) > placement_tolerance) {
     source.fail(line, what + "is not half a kingpin_width from the body's x axis (left: +y, right: -y): it is at y = " +
-                          print_number(frame.translation().y()) + " m, expected " + print_number(y));
+                          print_number(frame.translation().y()) + " m, expected " + print_number(y) +
+                          doubt_of_place(element, "kingpin_width", frame.translation().y(), y));
   }
 }
 

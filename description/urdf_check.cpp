@@ -118,18 +118,42 @@ std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge
   return parent_of;
 }
 
+using Children = std::map<std::string, std::vector<const Edge*>>;
+
+std::size_t links_below(const std::string& root, const Children& children) {
+  std::vector<std::string> reached = {root};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const auto found = children.find(reached[i]);
+    if (found == children.end()) continue;
+    for (const Edge* edge : found->second) reached.push_back(edge->child);
+  }
+  return reached.size() - 1;
+}
+
+// Links without a parent, the one that most others hang on first: what hangs on no joint has few.
+std::vector<std::string> roots_of(const Outline& outline, const Children& children,
+                                  const std::map<std::string, Edge>& parent_of) {
+  std::vector<std::string> roots;
+  for (const auto& [link, line] : outline.link_lines) {
+    if (!parent_of.count(link)) roots.push_back(link);
+  }
+  std::stable_sort(roots.begin(), roots.end(), [&](const std::string& a, const std::string& b) {
+    return links_below(a, children) > links_below(b, children);
+  });
+  return roots;
+}
+
 // Orders the joints from the root outwards; links not reached are on a cycle.
 void order_tree(const Source& source, const std::vector<Edge>& edges, Outline& outline) {
   const auto parent_of = parents(source, edges, outline);
-  std::map<std::string, std::vector<const Edge*>> children;
+  Children children;
   for (const Edge& edge : edges) children[edge.parent].push_back(&edge);
-  for (const auto& [link, line] : outline.link_lines) {
-    if (parent_of.count(link)) continue;
-    if (!outline.root.empty()) {
-      source.fail(line, "link '" + link + "' is a second root beside '" + outline.root + "'; expected one tree");
-    }
-    outline.root = link;
-  }
+  const std::vector<std::string> roots = roots_of(outline, children, parent_of);
+  if (roots.size() > 1)
+    source.fail(outline.link_lines.at(roots[1]), "link '" + roots[1] + "' is a second root beside '" + roots[0] +
+                                                     "'; expected one tree: a <joint> with <child link=\"" + roots[1] +
+                                                     "\"/>");
+  if (!roots.empty()) outline.root = roots[0];
   if (outline.root.empty())
     source.fail(outline.link_lines.begin()->second, "every link has a parent: the joints form a cycle");
   std::vector<std::string> reached = {outline.root};

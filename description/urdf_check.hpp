@@ -74,7 +74,7 @@ void warn_of_undriven(const Source& source, const tinyxml2::XMLElement& root, Ro
 // Sets a drive's wheels, those of each side from the first on.
 void take_wheels(const std::vector<std::size_t>& left, const std::vector<std::size_t>& right, DifferentialDrive& drive);
 // Makes the inertia of a wheel even about its axle where rounded figures leave a few per cent, with a warning.
-void balance_wheel(const Source& source, std::size_t joint, Robot& robot);
+void balance_wheel(std::size_t joint, Robot& robot);
 // A drive whose wheels and sizes are known: checks them against the joints, and completes it.
 void complete_drive(const Source& source, const tinyxml2::XMLElement& element, DifferentialDrive& drive, Robot& robot);
 // The largest radius of the collision shapes of a joint's child that are round about its axis; 0 if there are none.
@@ -86,6 +86,9 @@ void read_motors(const Source& source, const tinyxml2::XMLElement& element, Diff
 // The index of a joint; the position on the body of one that turns without end about the body's +y axis.
 std::size_t find_joint(const Source& source, const tinyxml2::XMLElement& element, const char* attribute,
                        const Robot& robot);
+// Of a wheel or kingpin that is at y `is` where half of the attribute `width` says `expected`: exchanged sides, or
+// another unit; "" where neither explains it.
+std::string doubt_of_place(const tinyxml2::XMLElement& element, const char* width, double is, double expected);
 Eigen::Vector3d place_of_turning(const Source& source, const tinyxml2::XMLElement& element, const Robot& robot,
                                  std::size_t joint);
 

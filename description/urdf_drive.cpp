@@ -40,16 +40,29 @@ void turn_forward(const Source& source, const XMLElement& element, std::size_t i
       print_exactly(axis.x()) + " " + print_exactly(axis.y()) + " " + print_exactly(axis.z()) + "\"/>");
 }
 
+// What a length given may have been meant as, where the robot has `real` metres; "" where it is merely another.
+std::string doubt_of_length(const XMLElement& element, const char* attribute, double given, double real) {
+  constexpr double alike = 0.02;  // of a length rounded to two digits
+  for (const auto& [unit, parts] : {std::pair{"millimetres", 1000.0}, std::pair{"centimetres", 100.0}}) {
+    if (!(std::abs(given - parts * real) < alike * given)) continue;
+    const char* text = element.Attribute(attribute);
+    return std::string("; is ") + attribute + "=\"" + (text ? text : print_number(given)) + "\" in " + unit +
+           "? expected " + print_number(given / parts);
+  }
+  return "";
+}
+
 // Checks that the axle is along the body's y axis, the left wheel on the left, and that positive rates turn forward.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
                             double y) {
   Eigen::Vector3d middle = place_of_turning(source, element, robot, index);
   if (std::abs(middle.y() - y) > placement_tolerance) {
     const bool is_base = std::string(element.Name()) != "ackermann" && std::string(element.Name()) != "mecanum";
-    source.fail(element.GetLineNum(), tag(element) + "joint '" + robot.joints[index].name + "' is not half a " +
-                                          (is_base ? "wheel_base" : "wheel_separation") +
-                                          " from the body's x axis (left: +y, right: -y): it is at y = " +
-                                          print_number(middle.y()) + " m, expected " + print_number(y));
+    const char* width = is_base ? "wheel_base" : "wheel_separation";
+    source.fail(element.GetLineNum(),
+                tag(element) + "joint '" + robot.joints[index].name + "' is not half a " + width +
+                    " from the body's x axis (left: +y, right: -y): it is at y = " + print_number(middle.y()) +
+                    " m, expected " + print_number(y) + doubt_of_place(element, width, middle.y(), y));
   }
   return middle;
 }
@@ -62,7 +75,8 @@ void check_radius(const Source& source, const XMLElement& element, const Robot& 
   const char* given = element.Attribute("wheel_radius");
   source.fail(element.GetLineNum(), tag(element) + "wheel_radius=\"" + (given ? given : print_number(wheel_radius)) +
                                         "\" contradicts the wheel of joint '" + joint.name +
-                                        "', whose collision shape has a radius of " + print_number(radius));
+                                        "', whose collision shape has a radius of " + print_number(radius) +
+                                        doubt_of_length(element, "wheel_radius", wheel_radius, radius));
 }
 
 // Not an error: the world file may put the robot's frame above the ground.
@@ -101,6 +115,11 @@ std::vector<std::size_t> find_joints(const Source& source, const XMLElement& ele
 }
 
 }  // namespace
+
+std::string doubt_of_place(const XMLElement& element, const char* width, double is, double expected) {
+  if (std::abs(is + expected) <= placement_tolerance) return "; are left and right exchanged?";
+  return doubt_of_length(element, width, 2 * std::abs(expected), 2 * std::abs(is));
+}
 
 void read_motors(const Source& source, const XMLElement& element, DifferentialDrive& drive) {
   drive.max_torque = positive(source, element, "max_torque");
@@ -168,7 +187,7 @@ void complete_drive(const Source& source, const XMLElement& element, Differentia
   }
   for (const Follower& wheel : drive.wheels()) {
     check_radius(source, element, robot, wheel.joint, drive.wheel_radius);
-    balance_wheel(source, wheel.joint, robot);
+    balance_wheel(wheel.joint, robot);
   }
   if (drive.effective_base == 0) {
     std::vector<double> ways;

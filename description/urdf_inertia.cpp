@@ -68,7 +68,8 @@ void compare(const Mass& mass, const Mass& full, const Mass& even, std::vector<s
   if (density > densest || density < lightest) {
     warnings.push_back("its mass of " + print_number(mass.mass) + " kg gives its collision shapes a density of " +
                        print_number(density) + " kg/m3; expected " + print_number(lightest) + " to " +
-                       print_number(densest) + " (osmium)");
+                       print_number(densest) + " (osmium)" +
+                       (density > densest && density / 1000 < densest ? "; are these grams?" : ""));
   }
   const double ratio = mass.inertia.trace() / even.inertia.trace();
   if (ratio <= most_inertia && ratio >= least_inertia) return;

@@ -1,5 +1,7 @@
-// Joints that ROS drives and muster does not: those of an arm, a gripper, a camera's tilt.
+// Joints that ROS drives and muster does not: those of an arm, a gripper, a camera's tilt; and wheels that cannot turn.
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <string>
 
 #include "description/urdf_check.hpp"
@@ -26,7 +28,24 @@ void warn_of_joints_in(const Source& source, const XMLElement& group, bool only_
   }
 }
 
+bool is_named_wheel(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return c < 128 ? std::tolower(c) : c; });
+  return name.find("wheel") != std::string::npos && name.find("caster") == std::string::npos;
+}
+
 }  // namespace
+
+std::string wheels_that_stand(const Robot& robot) {
+  std::string result;
+  if (std::filesystem::path(robot.file).extension() == ".xml") return result;  // MJCF has other words for joints
+  for (const Joint& joint : robot.joints) {
+    const Link& wheel = robot.links[joint.child];
+    if (joint.kind == JointKind::continuous || (!is_named_wheel(joint.name) && !is_named_wheel(wheel.name))) continue;
+    result += (result.empty() ? "joint '" : ", joint '") + joint.name + "' of link '" + wheel.name + "' (" +
+              robot.file + ":" + std::to_string(wheel.line) + ") is " + law_of(joint.kind).name;
+  }
+  return result;
+}
 
 void warn_of_undriven(const Source& source, const XMLElement& root, Robot& robot) {
   for (const auto* each = root.FirstChildElement(); each; each = each->NextSiblingElement()) {

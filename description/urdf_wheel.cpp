@@ -21,7 +21,7 @@ constexpr double exact = 1e-6, rounded = 0.05;
 
 }  // namespace
 
-void balance_wheel(const Source& source, std::size_t index, Robot& robot) {
+void balance_wheel(std::size_t index, Robot& robot) {
   const Joint& joint = robot.joints[index];
   const Vector3d& axis = joint.axis;
   const Mass whole = rigid_mass(robot, joint.child);
@@ -47,9 +47,9 @@ void balance_wheel(const Source& source, std::size_t index, Robot& robot) {
   if (off >= exact)
     what += (what.empty() ? "" : " and ") + std::string("its centre of mass is ") + print_number(1000 * off) +
             " mm off the axle";
-  robot.warnings.push_back(source.file + ":" + std::to_string(robot.links[joint.child].line) +
-                           ": the wheel of joint '" + joint.name + "': " + what + "; it is taken as balanced; write " +
-                           inertial_text(mass) + " in link '" + robot.links[joint.child].name + "'");
+  robot.warnings.push_back(robot.file + ":" + std::to_string(robot.links[joint.child].line) + ": the wheel of joint '" +
+                           joint.name + "': " + what + "; it is taken as balanced; write " + inertial_text(mass) +
+                           " in link '" + robot.links[joint.child].name + "'");
 }
 
 }  // namespace muster::description

@@ -106,10 +106,11 @@ class WorldRobots {
   static std::shared_ptr<const Robot> read_one(const muster_host* host, uint32_t row, const std::string& model,
                                                const UrdfSetting& declared, const std::vector<std::string>& directories,
                                                Meshes meshes) {
-    std::string file;
+    std::string file, doubt;
     UrdfSetting setting;
     try {
       file = find_model(model, directories);
+      doubt = doubt_of_model(model, directories);
       setting = find_setting(declared, directories);
     } catch (const std::runtime_error& wrong) {
       const std::string name = host->row_name(host, "robot", row);
@@ -118,6 +119,7 @@ class WorldRobots {
     }
     try {
       auto robot = std::make_shared<const Robot>(read_robot(file, meshes, setting));
+      if (!doubt.empty()) detail::warn(host, "robot/" + std::string(host->row_name(host, "robot", row)), doubt);
       for (const std::string& warning : robot->warnings) host->event(host, warning.c_str());
       return robot;
     } catch (const std::runtime_error& wrong) {

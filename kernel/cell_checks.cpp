@@ -73,13 +73,16 @@ Written written(const Claim& claim) {
   return {next.data.data(), next.rows};
 }
 
+constexpr const char* unfilled =
+    "is not filled; expected step() to fill each cell that it writes in every tick, also where nothing is to change";
+
 std::string wrong_value(const Column& column, double value) {
-  if (std::bit_cast<uint64_t>(value) == poison_bits) return "is not filled";
+  if (std::bit_cast<uint64_t>(value) == poison_bits) return unfilled;
   if (std::isnan(value)) {
-    if (!column.nullable) return "is NaN";
+    if (!column.nullable) return "is NaN; expected a number: 0 / 0 is none, nor a logarithm or root of less than 0";
     return std::bit_cast<uint64_t>(value) == MUSTER_NULL_BITS ? "" : "is NaN; an empty cell is muster::null()";
   }
-  if (std::isinf(value) && !column.infinite) return "is infinite";
+  if (std::isinf(value) && !column.infinite) return "is infinite; expected a number: a value over 0 is none";
   return "";
 }
 
@@ -109,11 +112,33 @@ std::string wrong_reference(const Column& column, double value, double rows) {
   return "is no row of " + column.reference;
 }
 
-std::string cell_name(const Claim& claim, std::size_t row, std::size_t column) {
+// Names of the rows that a row without a name refers to, such as the radios of a link's endpoints: "a, b".
+std::string referred_names(const Blackboard& board, const Set& set, std::size_t row, int depth = 0) {
+  constexpr int deepest = 4;  // sets may refer to each other
+  if (set.is_named() && row < set.names.size()) return set.names[row];
+  std::string result;
+  for (const auto& [name, table] : board.tables()) {
+    if (&table->set() != &set || !table->columns().any_references() || row >= table->now().rows || depth == deepest)
+      continue;
+    for (std::size_t c = 0; c < table->width(); ++c) {
+      const double value = table->now().data[row * table->width() + c];
+      const Set* to = table->columns()[c].reference.empty() ? nullptr : board.find_set(table->columns()[c].reference);
+      if (!to || !(value >= 0)) continue;
+      const std::string one = referred_names(board, *to, static_cast<std::size_t>(value), depth + 1);
+      if (!one.empty()) result += (result.empty() ? "" : ", ") + one;
+    }
+    return result;
+  }
+  return "";
+}
+
+std::string cell_name(const Blackboard& board, const Claim& claim, std::size_t row, std::size_t column) {
   const Set& set = claim.out->set();
   const std::size_t number = claim.row >= 0 && set.kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : row;
   const std::string name = set.is_named() && number < set.names.size() ? set.names[number] : std::to_string(number);
-  return claim.name.set + '/' + name + '/' + claim.name.quantity + ": " + claim.columns[column].title();
+  const std::string of = set.kind == SetKind::listed && !claim.lists ? referred_names(board, set, number) : "";
+  return claim.name.set + '/' + name + '/' + claim.name.quantity + (of.empty() ? "" : " (" + of + ")") + ": " +
+         claim.columns[column].title();
 }
 
 // True for rows outside the claim: those of other instances, and those that have left.
@@ -155,7 +180,7 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
       if (wrong.empty()) wrong = wrong_reference(column, data[r * width + c], referred[c]);
       if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width]))
         wrong = "is not " + claim.name.row + ", for which alone it may speak";
-      if (!wrong.empty()) return cell_name(claim, r, c) + ' ' + wrong;
+      if (!wrong.empty()) return cell_name(board, claim, r, c) + ' ' + wrong;
     }
   }
   return "";

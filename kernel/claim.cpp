@@ -189,6 +189,11 @@ std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const 
   auto cells = std::make_unique<Cells>();
   cells->rows = table.rows();
   cells->data.resize(cells->rows * columns.size());
+  std::vector<TextColumn> needed;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (!columns[c].nullable) needed.push_back({columns[c].name, columns[c].unit});
+  }
+  table.require_most(needed);
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const auto& column = columns[c];
     std::vector<double> values(cells->rows, null());

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <initializer_list>
 
+#include "callback_watch.hpp"
+
 namespace muster {
 namespace {
 
@@ -55,12 +57,21 @@ const char* name_of(int signal) {
 
 }  // namespace
 
-RunningCallback::RunningCallback(const char* title, const char* callback, int64_t tick)
-    : title_(title), callback_(callback), tick_(tick), outer_(running) {
+RunningCallback::RunningCallback(const char* title, const char* callback, int64_t tick, double time, bool may_wait)
+    : title_(title), callback_(callback), tick_(tick), time_(time), may_wait_(may_wait), outer_(running) {
   running = this;
+  note();
 }
 
-RunningCallback::~RunningCallback() { running = outer_; }
+RunningCallback::~RunningCallback() {
+  running = outer_;
+  if (outer_)
+    outer_->note();
+  else
+    note_callback({});
+}
+
+void RunningCallback::note() const { note_callback({may_wait_ ? nullptr : title_, callback_, tick_, time_}); }
 
 void write_crash(int signal) {
   const RunningCallback* in = running;
@@ -68,7 +79,9 @@ void write_crash(int signal) {
     Line line;
     line << "muster: error: " << in->title_ << ": " << in->callback_ << " crashed";
     if (in->tick_ >= 0) line << " at tick " << in->tick_;
-    line << ": " << name_of(signal) << " in the plugin; a debugger shows where: gdb --args muster ...\n";
+    line << ": " << name_of(signal)
+         << " in the plugin; a debugger shows where, and the line of a plugin built with "
+            "-D CMAKE_BUILD_TYPE=Debug: gdb -ex run --args muster ...\n";
     line.write();
   }
 }

@@ -8,16 +8,20 @@ namespace muster {
 // The callback that runs on this thread, for the length of this object's life.
 class RunningCallback {
  public:
-  // `title` and `callback` must outlive it; `tick` is negative outside a step.
-  RunningCallback(const char* title, const char* callback, int64_t tick);
+  // `title` and `callback` must outlive it; `tick` is negative outside a step. One that `may_wait`, for a client or a
+  // clock, is not told of when it lasts long.
+  RunningCallback(const char* title, const char* callback, int64_t tick, double time = 0, bool may_wait = false);
   ~RunningCallback();
   RunningCallback(const RunningCallback&) = delete;
   RunningCallback& operator=(const RunningCallback&) = delete;
 
  private:
+  void note() const;
   friend void write_crash(int signal);
   const char *title_, *callback_;
   int64_t tick_;
+  double time_;
+  bool may_wait_;
   const RunningCallback* outer_;
 };
 

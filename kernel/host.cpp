@@ -266,7 +266,7 @@ struct Host {
     std::mutex changing;
     const auto call = [&](std::size_t k) {
       const FloatGuard guard;
-      const RunningCallback running(i.title_.c_str(), "step", i.tick_);
+      const RunningCallback running(i.title_.c_str(), "step", i.tick_, i.time_, i.may_wait_);
       one(work, static_cast<uint32_t>(k));
       if (!guard.changed()) return;
       const std::lock_guard lock(changing);

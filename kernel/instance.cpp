@@ -39,11 +39,12 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   }
   check_attributes();
   title_ = title();
+  may_wait_ = find_param("wait") >= 0;  // declared so: it says itself for whom it waits
   host_ = make_host(*this);
   FloatGuard guard;
   in_create_ = true;
   self_ = guarded(nullptr, [&] {
-    const RunningCallback running(title_.c_str(), "create", -1);
+    const RunningCallback running(title_.c_str(), "create", -1, 0, may_wait_);
     return plugin_->create(&host_);
   });
   in_create_ = false;
@@ -207,7 +208,8 @@ bool Instance::step(const muster_tick& now) noexcept {
   in_step_ = true;
   asked_ = nullptr;
   tick_ = static_cast<int64_t>(now.index);
-  const RunningCallback running(title_.c_str(), "step", tick_);
+  time_ = now.time;
+  const RunningCallback running(title_.c_str(), "step", tick_, now.time, may_wait_);
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;

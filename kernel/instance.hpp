@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "blackboard.hpp"
+#include "callback_watch.hpp"
 #include "loader/library.hpp"
 #include "text/table_cache.hpp"
 #include "thread_pool.hpp"
@@ -160,11 +161,17 @@ class Instance {
   std::vector<Claim> claims_;
   std::vector<muster_in> in_;
   std::vector<muster_out> out_;
-  std::string title_;  // as it was made, for a crash's message
+  std::string title_;  // as it was made, for messages about a callback that crashes or hangs
+  // Goes before the title, which the watch of callbacks may be reading.
+  struct Settled {
+    ~Settled() { settle_callback_watch(); }
+  } settled_;
   std::string error_;  // the plugin's message for its failure
   Exit fault_ = Exit::plugin_fault;
   bool refused_ = false;  // the message is the kernel's own refusal
   int64_t tick_ = -1;     // of its last step
+  double time_ = 0;       // [s] of the same
+  bool may_wait_ = false;
   bool in_create_ = false, in_step_ = false, direct_ = false;
   const Set* asked_ = nullptr;  // the set of its last query in this step
 };

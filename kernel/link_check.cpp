@@ -190,7 +190,7 @@ void Linker::check_reads(const std::string& logical, const Claimed& c) const {
                            ? c.is_written() || is_of_the_world(logical)
                            : std::any_of(tables.begin(), tables.end(), [&](const auto& t) { return t.name == name; });
     if (!found && !(claim.flags & MUSTER_OPTIONAL) && !promised_.count(name)) {
-      throw by.instance->refused("reads " + quote(name) + ", which nobody writes; " +
+      throw by.instance->refused("reads " + quote(claim.name.text()) + ", which nobody writes; " +
                                  expected_writer(claim.name, name));
     }
     // A controller may read what is not standard only if its writer calls it sensed.

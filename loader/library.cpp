@@ -71,10 +71,10 @@ void check_abi(const LibraryCopy& copy) {
     if (section.starts_with(abi_prefix)) other = one_line(section.substr(abi_prefix.size()));
   }
   if (other.empty())
-    throw Refusal(
-        fmt::format("is a shared library but no muster plugin: it has no section {}; expected one that "
-                    "muster_plugin() of plugin_api builds",
-                    expected));
+    throw Refusal(fmt::format(
+        "is a shared library but no muster plugin: it has no section {}; expected MUSTER_PLUGIN_IS(NAME) at "
+        "the end of its source, and a build by muster_plugin() of plugin_api",
+        expected));
   throw Refusal(fmt::format("is built for plugin ABI {}; this muster has plugin ABI {}; rebuild it against plugin_api",
                             other, MUSTER_ABI));
 }
@@ -194,6 +194,14 @@ std::filesystem::path find(const std::string& id, const Library::SearchPath& sea
 
 // ---- Messages ----
 
+// What is to be done where a file's name and the id in it differ.
+std::string of_its_name(std::string_view id, const std::string& expected, const muster_plugin& plugin) {
+  const std::string other = std::filesystem::path(file_name(std::string(id))).stem().string();
+  return fmt::format(
+      "; write id = \"{}/{}\" in its source, or muster_plugin({} ...) in its CMakeLists.txt and <{}/> in the world",
+      expected, parse_plugin_id(plugin.id).revision, other, id);
+}
+
 Error fault(const Place& where, const std::string& plugin_id, const std::string& words) {
   const std::string message = fmt::format("plugin {}: {}", quote(plugin_id), words);
   return where.file.empty() ? Error(Exit::plugin_fault, message) : Error(Exit::plugin_fault, where, message);
@@ -226,7 +234,9 @@ std::shared_ptr<Library> LibraryLoader::load(const std::string& plugin_id,
   try {
     std::shared_ptr<Library> result = open(file);
     if (result->id() != plugin_id)
-      throw Refusal(fmt::format("registers {}; expected {}", quote(result->id()), quote(plugin_id)));
+      throw Refusal(
+          fmt::format("registers {}; expected {}{}", quote(result->id()), quote(plugin_id),
+                      library ? std::string() : of_its_name(result->id(), plugin_id, result->plugins().back())));
     return result;
   } catch (const Refusal& refusal) {
     throw fault(where, plugin_id, fmt::format("{} {}", file.native(), refusal.what()));
@@ -263,7 +273,9 @@ std::vector<ListedPlugin> list_plugins(const Library::SearchPath& search_path) {
         std::shared_ptr<Library> library = loader.open(file);
         const std::string expected = file_name(std::string(library->id()));
         if (file.filename() != expected)
-          throw Refusal(fmt::format("registers {}; such a file is called {}", quote(library->id()), expected));
+          throw Refusal(
+              fmt::format("registers {}; such a file is called {}, by muster_plugin({} ...) in its CMakeLists.txt",
+                          quote(library->id()), expected, std::filesystem::path(expected).stem().string()));
         listed.library = std::move(library);
       } catch (const Refusal& refusal) {
         listed.reason = refusal.what();

@@ -22,6 +22,20 @@ bool is_word(std::string_view text) {
   throw std::invalid_argument("column \"" + std::string(word) + "\" " + why);
 }
 
+// Columns that are parted by something else than blanks.
+[[noreturn]] void refuse_separators(std::string_view text) {
+  std::string meant;
+  bool is_between = false;
+  for (const char c : text) {
+    const bool parts = std::string_view(" ,;\t\n").find(c) != std::string_view::npos;
+    if (!parts && is_between && !meant.empty()) meant += ' ';
+    if (!parts) meant += c;
+    is_between = parts;
+  }
+  throw std::invalid_argument("columns \"" + std::string(text) +
+                              "\" are parted by other signs than blanks; expected \"" + meant + '"');
+}
+
 // Parses one word of the text; returns the number of columns that it describes.
 std::size_t parse_word(std::string_view word, Column& column) {
   const auto marks = word.find_first_of(":[{*?~+");
@@ -72,6 +86,7 @@ Columns::Columns(std::string_view text) : text_(text) {
     if (start == text.npos) break;
     text.remove_prefix(start);
     const auto word = text.substr(0, text.find(' '));
+    if (word.find_first_of(",;\t\n") != word.npos) refuse_separators(text);
     text.remove_prefix(word.size());
     Column column;
     const auto count = parse_word(word, column);

@@ -85,8 +85,28 @@ std::string expected_one_of(const std::vector<std::string>& valid) {
   return (valid.size() == 1 ? "expected " : "expected one of ") + listed(valid);
 }
 
+namespace {
+
+// The shortest name that goes on where the wrong one ends: "robot/*/odom" of "robot/*/odometry"; empty if there is
+// none.
+std::string completion(std::string_view wrong, const std::vector<std::string>& valid) {
+  constexpr std::size_t telling = 3;  // letters; a shorter beginning is that of too many names
+  const std::size_t separator = wrong.find_last_of("/.");
+  if (wrong.size() - (separator == wrong.npos ? 0 : separator + 1) < telling) return "";
+  std::string found;
+  for (const std::string& name : valid) {
+    const std::string_view more = name.starts_with(wrong) ? std::string_view(name).substr(wrong.size()) : "";
+    const bool is_one_word = !more.empty() && more.find_first_of("/.@") == more.npos;
+    if (is_one_word && (found.empty() || name.size() < found.size())) found = name;
+  }
+  return found;
+}
+
+}  // namespace
+
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& valid) {
   std::string found = synonym(wrong, valid);
+  if (found.empty()) found = completion(wrong, valid);
   if (found.empty()) found = nearest(wrong, valid);
   constexpr std::size_t telling = 4;  // letters; a shorter end is that of too many names
   for (const std::string& name : valid) {

@@ -23,8 +23,8 @@ std::string listed(const std::vector<std::string>& names);
 // `expected one of a, b, c`, at most 30 of them.
 std::string expected_one_of(const std::vector<std::string>& valid);
 
-// `; did you mean "b"?`: what the word means elsewhere (text/synonyms.hpp), or the nearest name, or the one that ends
-// in it after a slash or a dot; empty if there is none.
+// `; did you mean "b"?`: what the word means elsewhere (text/synonyms.hpp), or the name that it is the beginning of, or
+// the nearest name, or the one that ends in it after a slash or a dot; empty if there is none.
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& valid);
 
 // `expected one of a, b, c; did you mean "b"?`; without the question if nothing is near. Of a long list the question

@@ -213,6 +213,21 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
                                           quote(wanted.label()) + conversion(columns_[*found].unit, wanted.unit));
 }
 
+void TextTable::require_most(const std::vector<TextColumn>& needed) const {
+  std::string header, missing;
+  std::size_t count = 0;
+  for (const TextColumn& column : needed) {
+    header += (header.empty() ? "" : ",") + column.label();
+    if (find(column.name)) continue;
+    missing += (count++ ? ", " : "") + quote(column.label());
+  }
+  if (count < 2) return;
+  std::vector<std::string> names;
+  for (const TextColumn& column : columns_) names.push_back(column.name);
+  throw invalid(header_place(0),
+                "no columns " + missing + " in the table, which has " + listed(names) + "; expected " + header);
+}
+
 bool TextTable::is_numeric(std::size_t column) const {
   if (read_otherwise_.count(column)) return true;
   if (!columns_[column].unit.empty()) return true;

@@ -57,6 +57,8 @@ class TextTable {
   std::optional<std::size_t> find(std::string_view name) const;
   // The column of that name and unit; otherwise an error that names the nearest column.
   std::size_t require(std::string_view name, std::string_view unit) const;
+  // Throws Error with the whole header where two or more of the columns are not there: it is another table then.
+  void require_most(const std::vector<TextColumn>& needed) const;
   // True if the column has a unit, or starts with a number (a quoted cell is a name).
   bool is_numeric(std::size_t column) const;
 

@@ -216,6 +216,11 @@ class RowReader {
         attribute.store(std::vector<double>(static_cast<std::size_t>(attribute.count), attribute.param.value).data(),
                         defaults.data());
     }
+    std::vector<TextColumn> needed = {{"name", ""}};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (std::isnan(defaults[c])) needed.push_back({columns[c].name, columns[c].unit});
+    }
+    load.table.require_most(needed);
     std::vector<std::vector<double>> cells;
     std::set<std::string> known = {"name"};
     for (std::size_t c = 0; c < columns.size(); ++c) {

@@ -207,7 +207,8 @@ void note_degrees(Dataset& data, const std::vector<double>& yaw, const std::stri
   const double turn = 6.283185307179586;
   if (std::max(std::abs(*low), std::abs(*high)) > 2 * turn && *high - *low <= 361 && (whole || *high - *low > 180))
     data.notes.push_back("column " + quote(column) + " goes from " + print_real(*low) + " to " + print_real(*high) +
-                         " rad: are these degrees?");
+                         " rad: are these degrees? expected radians (a map of muster import: " + column +
+                         " = 0.017453292519943295*COLUMN)");
 }
 
 }  // namespace

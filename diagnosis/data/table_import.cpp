@@ -17,6 +17,48 @@
 namespace muster::diagnosis {
 namespace {
 
+// Units that names of columns end in, and how a map makes them ours.
+struct NamedUnit {
+  std::string_view name, unit, rule;
+};
+constexpr NamedUnit named_units[] = {
+    {"cm", "m", "0.01*"},
+    {"mm", "m", "0.001*"},
+    {"km", "m", "1000*"},
+    {"dm", "m", "0.1*"},
+    {"ft", "m", "0.3048*"},
+    {"feet", "m", "0.3048*"},
+    {"ms", "s", "0.001*"},
+    {"us", "s", "1e-6*"},
+    {"ns", "s", "1e-9*"},
+    {"min", "s", "60*"},
+    {"mw", "dBm", "10*log10"},
+    {"deg", "rad", "0.017453292519943295*"},
+    {"degrees", "rad", "0.017453292519943295*"},
+};
+
+// Of a column taken as it is whose name ends in another unit: "x_cm", "x (mm)"; "" where it does not.
+std::string doubt_of_unit(const ColumnRule& rule) {
+  const std::string& column = rule.number->from.column;
+  std::string last;
+  for (const char c : column) {
+    if (std::isalpha(static_cast<unsigned char>(c)))
+      last += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (c == '_' || c == ' ' || c == '(' || c == '[' || c == '.')
+      last.clear();
+  }
+  if (last.size() == column.size()) return "";  // a whole name, such as "min"
+  for (const auto& [name, unit, begins] : named_units) {
+    if (last != name || rule.column.unit != unit) continue;
+    const std::string of = (rule.number->from.table.empty() ? "" : rule.number->from.table + '.') + column;
+    const bool is_function = begins.back() != '*';
+    return fmt::format("; is it in {}? expected {} = {}{}{}{} in line {} of the map", name == "mw" ? "mW" : name,
+                       rule.column.label(), begins, is_function ? "(" : "", of, is_function ? ")" : "",
+                       rule.place.line);
+  }
+  return "";
+}
+
 class Importer {
  public:
   Importer(const std::vector<std::filesystem::path>& files, const ImportMap& map) : map_(map), source_(files, map) {
@@ -315,7 +357,7 @@ class Importer {
     if (n.scale != 1) words = fmt::format("{} x {}", n.scale, words);
     if (n.offset != 0) words += fmt::format(" {} {}", n.offset < 0 ? '-' : '+', std::abs(n.offset));
     const bool plain = n.scale == 1 && !n.logarithm && !rule.column.unit.empty();
-    return words + (plain ? ", taken to be in " + rule.column.unit : "");
+    return words + (plain ? ", taken to be in " + rule.column.unit + doubt_of_unit(rule) : "");
   }
 
   const ImportMap& map_;

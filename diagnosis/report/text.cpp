@@ -24,8 +24,14 @@ std::size_t width_of(const std::string& text) {
 
 std::string heading(const std::string& text) { return "\n" + text + "\n"; }
 
+// A note that asks whether the data are what they are taken for comes before all that is found in them.
+bool asks(const std::string& note) { return note.find('?') != note.npos; }
+
 std::string introduction(const Diagnosis& d, const Setting& setting) {
-  std::string text = wrapped(setting.world + " " + verdict_in_words(d) + ".");
+  std::string text;
+  for (const std::string& note : d.notes)
+    if (asks(note)) text += wrapped("note: " + note);
+  text += wrapped(setting.world + " " + verdict_in_words(d) + ".");
   text += wrapped(fmt::format("{} readings of {}, {}. The world's own parameters are fitted.", d.readings, setting.data,
                               rows_in_words(d)));
   return text;
@@ -200,7 +206,8 @@ std::string world(const Diagnosis& d) {
       fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.", noise::name_of(n.family),
                   db(std::sqrt(n.field_variance())), n.decorrelation(), db(std::sqrt(n.reading_variance()))),
       2, 4);
-  for (const std::string& note : d.notes) text += wrapped("note: " + note, 2, 4);
+  for (const std::string& note : d.notes)
+    if (!asks(note)) text += wrapped("note: " + note, 2, 4);
   return text;
 }
 

@@ -1,17 +1,22 @@
 // C++ wrapper of plugin.h: header-only and C++17, so nothing here is part of the ABI.
 #pragma once
 
+#include <cxxabi.h>
 #include <muster/plugin.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iterator>
+#include <muster/plugin_traits.hpp>
 #include <muster/random.hpp>
 #include <muster/tables.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <typeinfo>
+#include <utility>
 
 namespace muster {
 
@@ -277,6 +282,17 @@ class Step {
 
 namespace detail {
 
+// Words of an exception that nobody wrote for a reader, such as that of vector::at(): they need the type, and the
+// place.
+inline std::string unexpected(const std::exception& e) {
+  int failed = 0;
+  char* name = abi::__cxa_demangle(typeid(e).name(), nullptr, nullptr, &failed);
+  const std::string type = failed == 0 && name ? name : typeid(e).name();
+  std::free(name);
+  return "threw " + type + ": " + e.what() +
+         "; a debugger shows where: gdb -ex 'catch throw' -ex run --args muster ...";
+}
+
 // Turns every exception into an error code: none crosses the ABI.
 template <class Body>
 bool guarded(const muster_host* host, Body&& body) noexcept {
@@ -285,8 +301,10 @@ bool guarded(const muster_host* host, Body&& body) noexcept {
     return true;
   } catch (const BadInput& e) {
     host->refuse(host, e.what());
-  } catch (const std::exception& e) {
+  } catch (const std::runtime_error& e) {
     if (*e.what()) host->error(host, e.what());
+  } catch (const std::exception& e) {
+    if (*e.what()) host->error(host, unexpected(e).c_str());
   } catch (...) {
     host->error(host, "threw something that is not a std::exception");
   }
@@ -305,46 +323,22 @@ struct Params<Plugin, std::void_t<decltype(Plugin::params)>> {
 };
 static_assert(sizeof(Param) == sizeof(muster_param), "an array of one is an array of the other");
 
-template <class Plugin, class = void>
-constexpr const char* manual_of = nullptr;
-template <class Plugin>
-inline constexpr const char* manual_of<Plugin, std::void_t<decltype(Plugin::manual)>> = Plugin::manual;
-template <class Plugin, class = void>
-constexpr const muster_cause* cause_of = nullptr;
-template <class Plugin>
-inline constexpr const muster_cause* cause_of<Plugin, std::void_t<decltype(Plugin::cause)>> = &Plugin::cause;
-template <class Plugin, class = void>
-constexpr const muster_draw* draw_of = nullptr;
-template <class Plugin>
-inline constexpr const muster_draw* draw_of<Plugin, std::void_t<decltype(Plugin::draw)>> = &Plugin::draw;
-// A member of that name that is no declaration is left alone.
-template <class Plugin, class = void>
-constexpr const muster_law* law_of = nullptr;
-template <class Plugin>
-inline constexpr const muster_law*
-    law_of<Plugin, std::enable_if_t<std::is_convertible_v<decltype(&Plugin::law), const muster_law*>>> = &Plugin::law;
-template <class Plugin, class = void>
-constexpr const muster_clip* clip_of = nullptr;
-template <class Plugin>
-inline constexpr const muster_clip*
-    clip_of<Plugin, std::enable_if_t<std::is_convertible_v<decltype(&Plugin::clip), const muster_clip*>>> =
-        &Plugin::clip;
-template <class Plugin, class = void>
-constexpr const muster_burst* burst_of = nullptr;
-template <class Plugin>
-inline constexpr const muster_burst*
-    burst_of<Plugin, std::enable_if_t<std::is_convertible_v<decltype(&Plugin::burst), const muster_burst*>>> =
-        &Plugin::burst;
-template <class Plugin, class = void>
-constexpr const char* cannot_hold_of = nullptr;
-template <class Plugin>
-inline constexpr const char* cannot_hold_of<Plugin, std::void_t<decltype(Plugin::cannot_hold)>> = Plugin::cannot_hold;
-
 template <class Plugin>
 struct Held {
   const muster_host* host;
   Plugin plugin;
 };
+
+// A step() that is not const can keep state in members, which a snapshot, a restore and a swap lose.
+template <class Plugin>
+void warn_of_state(const muster_host* host) {
+  if (has_const_step<Plugin> || keeps_only_caches_of<Plugin>) return;
+  warn(host, "self",
+       std::string("its step() is not const: what it keeps in members is lost where a run is restored or a plugin "
+                   "swapped; expected state in a table, s.write<State>(\"self/state\") and k.last(state), and ") +
+           "void step(const Step& k) const; or, where members hold only what can be computed again, "
+           "static constexpr bool keeps_only_caches = true");
+}
 
 template <class Plugin>
 void* create(const muster_host* host) {
@@ -352,6 +346,7 @@ void* create(const muster_host* host) {
   guarded(host, [&] {
     Setup setup(host, Params<Plugin>::data, Params<Plugin>::count);
     made = new Held<Plugin>{host, Plugin(setup)};
+    warn_of_state<Plugin>(host);
   });
   return made;
 }
@@ -365,11 +360,19 @@ void destroy(void* self) {
 template <class Plugin>
 int step(void* self, const muster_tick* tick, const muster_in* in, const muster_out* out) {
   auto* held = static_cast<Held<Plugin>*>(self);
-  return guarded(held->host, [&] { held->plugin.step(Step(held->host, tick, in, out)); }) ? MUSTER_OK : MUSTER_FAILED;
+  const auto body = [&] {
+    if constexpr (has_step<Plugin>) held->plugin.step(Step(held->host, tick, in, out));  // else one error says it
+  };
+  return guarded(held->host, body) ? MUSTER_OK : MUSTER_FAILED;
 }
 
 template <class Plugin>
 const muster_plugin* descriptor() {
+  static_assert(has_id<Plugin>, "a plugin needs a public: static constexpr auto id = \"radio.mine/1\";");
+  static_assert(has_summary<Plugin>, "a plugin needs a public: static constexpr auto summary = \"what it does\";");
+  static_assert(has_phase<Plugin>, "a plugin needs a public: static constexpr auto phase = MUSTER_RADIO;");
+  static_assert(std::is_constructible_v<Plugin, Setup&>, "a plugin needs a public: explicit NAME(muster::Setup& s)");
+  static_assert(has_step<Plugin>, "a plugin needs a public: void step(const muster::Step& k) const");
   static const muster_plugin result{sizeof(muster_plugin), Plugin::phase,          Plugin::id,
                                     Plugin::summary,       manual_of<Plugin>,      Params<Plugin>::data,
                                     Params<Plugin>::count, cannot_hold_of<Plugin>, create<Plugin>,
@@ -387,7 +390,9 @@ const muster_plugin* descriptor() {
 //   static constexpr muster::Param params[] = {...};  optional, as are `manual`, `cannot_hold`, `cause`, `draw`, `law`,
 //   `clip`, `burst`
 //   explicit Plugin(muster::Setup&);                  claims
-//   void step(const muster::Step&);                   or const
+//   void step(const muster::Step&) const;             a step that is not const is warned of, unless the struct has
+//   static constexpr bool keeps_only_caches = true;   members hold only what can be computed again from tables and
+//   files
 #define MUSTER_PLUGIN_IS(Plugin)                                                                    \
   MUSTER_DECLARE_ABI                                                                                \
   extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {                    \

@@ -17,6 +17,7 @@ struct Incidence {
       "and normal: with share 1 the loss grows as the way through it. The bracket is at most `most`: very flat links "
       "find another way.";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       real("share", 0, -1, 4, "", "of the loss that grows as the way through the wall").free().with(MUSTER_LINEAR),
       real("most", 3, 0, 100, "", "bound of 1 / cos a - 1"),

@@ -25,6 +25,7 @@ struct NoiseFloorRssi {
       "pair at or before a time holds, else for the receiver; the measured readings will do, and without t have to: "
       "row for row). With share 1 the reading is a signal-to-noise ratio.";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       file("file", "the noise at each receiver, a CSV table").required(),
       real("share", 0, -2, 2, "", "of the noise's changes that the reading follows").free().with(MUSTER_LINEAR),

@@ -28,6 +28,7 @@ struct PowerSteps {
       "whose powers stand in for the file's, are to have the same ones. Data in which each reading was referred to its "
       "nominal power need nothing else.";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       file("file", "when each radio was set to which power, a CSV table").required(),
       real("error1", 0, -30, 30, "dB", "of the lowest power").free().with(MUSTER_LINEAR),

@@ -15,6 +15,7 @@ struct WallAbsent {
       "Gives back `share` of what each crossing of `wall` costs, closed doors in it included: 1 where nothing is left "
       "of it.";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("wall", "wall", "which wall").required(),
       real("share", 0, 0, 1, "", "of its loss that is not there").free().with(MUSTER_LINEAR),

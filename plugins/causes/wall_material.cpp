@@ -15,6 +15,7 @@ struct WallMaterial {
       "Takes away `change` for every crossing of `wall`. Its doors are not of its material: they count neither open "
       "nor closed.";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("wall", "wall", "which wall").required(),
       real("change", 0, -40, 40, "dB", "loss beyond that of its material").free().with(MUSTER_LINEAR),

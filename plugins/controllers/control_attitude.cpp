@@ -2,6 +2,8 @@
 #include <limits>
 #include <muster/plugin.hpp>
 
+#include "plugins/table_times.hpp"
+
 namespace {
 
 using namespace muster;
@@ -27,6 +29,7 @@ struct ControlAttitude {
 
   explicit ControlAttitude(Setup& s)
       : robot(s.value("robot")),
+        times(s, "file"),
         commands(s.file<Row>("file")),
         command(s.write<AttitudeThrust>("robot/{robot}/attitude_thrust")) {}
 
@@ -35,19 +38,25 @@ struct ControlAttitude {
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, that for most of it
     *k[command] = {0, 0, 0, 0};
     double last = -std::numeric_limits<double>::infinity();
-    std::size_t number = 0, own = 0;
+    std::size_t number = 0, own = 0, first = 0;
     for (const Row& row : k[commands]) {
       ++number;
       if (!is_null(row.robot) && row.robot != k[robot]) continue;
       if (!(row.t > last)) throw BadInput("commands, row " + std::to_string(number) + ": t does not rise");
       last = row.t;
-      ++own;
+      if (++own == 1) first = number - 1;
       if (row.t <= now) *k[command] = row.asked;
     }
     if (own == 0) throw BadInput("the file has no commands for it");
+    if (k.tick() == 1 && last >= 0)  // what was asked before the run holds
+      times.warn_of(
+          k, k[commands][first].t, last, first,
+          "the commands of robot '" + std::string(k.name("robot", static_cast<std::size_t>(k[robot]))) + "' are",
+          "none is ever given");
   }
 
   Value robot;
+  TableTimes times;
   In<Row> commands;
   Out<AttitudeThrust> command;
 };

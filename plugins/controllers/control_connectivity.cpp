@@ -26,6 +26,7 @@ struct ControlConnectivity {
       "the link jump across the threshold, the robot rests before the wall instead of going to and fro). The robot\n"
       "knows its own odometry and the messages in its inbox: nothing of the channel, the walls or the others.";
   static constexpr auto phase = MUSTER_CONTROL;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot it steers, heard through the radio of the same name").required(),
       file("roadmap", "way points x[m],y[m] from the base to the goal").required(),

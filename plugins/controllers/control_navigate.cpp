@@ -44,6 +44,7 @@ struct ControlNavigate {
       "The\n"
       "robot knows its odometry, in whose frame roadmap and goals are.";
   static constexpr auto phase = MUSTER_CONTROL;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot it steers").required(),
       file("roadmap", "of muster roadmap; by default the robot's own, of robots.roadmap"),

@@ -25,6 +25,7 @@ once. noise: 1 MHz at 290 K and a noise figure of 7 dB; a receiver that is just 
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + queue_full + no_ack +
 gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("master", "radio", "the master; by default the first radio"),
       choice("packets", "DH5|DH3|DH1", "longest packets that are used, of 339, 183 and 27 bytes"),

@@ -26,6 +26,7 @@ once. `cca`: power of others against cca_threshold, as its mean over 8 symbols (
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + no_access +
 queue_full + no_ack + gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       integer("channel", 11, 11, 26, "5 MHz each, from 2405 MHz up: what it hears of jammers"),
       choice("cca", "standard|ns3|instant", "how a radio listens before it talks"),

@@ -21,6 +21,7 @@ frame left is lost: collided, or no_link if its receiver hears nobody. rssi and 
 ns-3's state cannot be saved: a run with it goes from its start, and is refused after restore, remake or a tick
 that was taken back. ns-3 holds one simulation a process: a second one is refused.)";
   static constexpr auto phase = MUSTER_NETWORK;
+  static constexpr bool keeps_only_caches = true;
   static constexpr auto cannot_hold = "messages that another network has under way";
   static constexpr Param params[] = {
       real("noise", -106.987, -250, 50, "dBm", "of a receiver; as it stands when the run begins"),

@@ -22,6 +22,7 @@ once. noise: 20 MHz at 290 K and a noise figure of 7 dB.
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + queue_full + no_ack +
 gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       integer("channel", 1, 1, 13, "20 MHz each, in steps of 5 from 2412 MHz up: what it hears of jammers"),
       choice("rate", "6|9|12|18|24|36|48|54", "Mbit/s"),

@@ -22,6 +22,7 @@ struct PhysicsMujoco {
       "Of second order in the step, in the air of first. self/complaints counts MuJoCo's warnings.\n"
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr bool keeps_only_caches = true;
   static constexpr auto abilities =
       description::Ability::wheels | description::Ability::steering | description::Ability::mecanum |
       description::Ability::rotors | description::Ability::height | description::Ability::tilting |

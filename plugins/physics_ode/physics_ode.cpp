@@ -46,6 +46,7 @@ struct PhysicsOde {
       "self/complaints counts ODE's messages, such as a contact that its exact solver could not settle.\n"
       "Not modelled: wheels as discs on the ground, rolling resistance, shapes other than boxes and spheres.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr bool keeps_only_caches = true;
   static constexpr auto abilities =
       description::Ability::wheels | description::Ability::steering | description::Ability::mecanum |
       description::Ability::rotors | description::Ability::height | description::Ability::tilting |

@@ -3,6 +3,7 @@
 #include <muster/plugin.hpp>
 
 #include "description/world_robots.hpp"
+#include "plugins/table_times.hpp"
 #include "track.hpp"
 
 namespace {
@@ -28,6 +29,7 @@ struct PhysicsReplay {
       "motion\n"
       "says, without slip. Commands have no effect.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr bool keeps_only_caches = true;
   static constexpr auto cannot_hold = "anything but the measured course: commands have no effect";
   static constexpr Param params[] = {file("file", "measured poses").required()};
 
@@ -38,6 +40,7 @@ struct PhysicsReplay {
 
   explicit PhysicsReplay(Setup& s)
       : robots(s, description::Meshes::skip),
+        times(s, "file"),
         measured(s.file<Measured>("file")),
         pose(s.write<Pose>("robot/*/pose")),
         twist(s.write<Twist>("robot/*/twist")),
@@ -48,7 +51,8 @@ struct PhysicsReplay {
     const auto rows = k[measured];
     courses.resize(k[pose].size());
     std::vector<Measured> last(courses.size());
-    bool is_doubted = false, is_jumping = false;  // told once
+    std::vector<std::size_t> first(courses.size());  // row
+    bool is_doubted = false, is_jumping = false;     // told once
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Measured& m = rows[i];
       const auto robot = static_cast<std::size_t>(m.robot);
@@ -62,7 +66,7 @@ struct PhysicsReplay {
         k.warn("self", "measured poses, row " + std::to_string(i + 1) + " (robot '" +
                            std::string(k.name("robot", robot)) + "'): " + what);
       };
-      if (course.track.empty()) course.has_height = !is_null(m.z);
+      if (course.track.empty()) course.has_height = !is_null(m.z), first[robot] = i;
       if (course.has_height == is_null(m.z)) fail("z is given in some rows only");
       const auto turn = turn_of(m);
       if (!turn) fail(why_no_turn(m).c_str());
@@ -77,6 +81,11 @@ struct PhysicsReplay {
       }
       last[robot] = m;
       if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) fail("time does not rise");
+    }
+    for (std::size_t i = 0; i < courses.size(); ++i) {
+      if (!courses[i].track.empty())
+        times.warn_of(k, rows[first[i]].t, last[i].t, first[i],
+                      "the rows of robot '" + std::string(k.name("robot", i)) + "' are", "it never moves");
     }
     is_read = true;
   }
@@ -136,6 +145,7 @@ struct PhysicsReplay {
   }
 
   WorldRobots robots;
+  TableTimes times;
   In<Measured> measured;
   Out<Pose> pose;
   Out<Twist> twist;

@@ -60,6 +60,7 @@ struct PhysicsSimbody {
       "Not modelled: wheels as discs on the ground (they stand on it as spheres would), rolling resistance,\n"
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
+  static constexpr bool keeps_only_caches = true;
   static constexpr auto abilities =
       description::Ability::wheels | description::Ability::steering | description::Ability::mecanum |
       description::Ability::rotors | description::Ability::legs | description::Ability::height |

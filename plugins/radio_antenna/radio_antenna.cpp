@@ -33,6 +33,7 @@ is its z axis, upright on the radio; azimuth, elevation and roll turn it.
 All that an antenna is fed it radiates, but for `loss`: a narrower lobe is a stronger one, and of a table the
 mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("radio", "radio", "whose antenna; without it, that of all others"),
       choice("pattern", "dipole|isotropic|cosine|sector|table", "its gain by direction"),

@@ -22,6 +22,7 @@ between both radios passes, and for each crossing of a sheet. A solid's surface 
 crossings are one body, and a radio inside leaves through one. Counts are exact on the lattice of walls, ties
 included, and the same both ways.)";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
 
   explicit RadioMeshes(Setup& s)
       : pose(s.read<Pose>("endpoint/*/pose")),

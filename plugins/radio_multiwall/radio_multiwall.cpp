@@ -19,6 +19,7 @@ struct RadioMultiwall {
       "one as nothing. Thickness and angle of incidence do not change a wall's loss.\n"
       "COST Action 231, Digital mobile radio towards future generation systems, final report, section 4.7 (1999).";
   static constexpr auto phase = MUSTER_RADIO;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       real("tx_power", 0, -100, 100, "dBm", "transmit power"),
       real("l0", 40, 0, 150, "dB", "loss at 1 m").free(),

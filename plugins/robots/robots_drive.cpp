@@ -105,11 +105,15 @@ struct RobotsDrive {
                                   name + "\"/> and <control.path3d robot=\"" + name + "\" path=\"...\"/>");
       return;
     }
-    k.warn("robot/" + name,
-           robot_is +
-               "has no drive, so that it does not move; expected <muster><differential left=\"\" right=\"\" "
-               ".../></muster> in " +
-               robot->file + ", or in a file of fittings");
+    k.warn("robot/" + name, robot_is + "has no drive, so that it does not move" + wheels_in_words(*robot) +
+                                "<muster><differential left=\"\" right=\"\" "
+                                ".../></muster> in " +
+                                robot->file + ", or in a file of fittings");
+  }
+
+  static std::string wheels_in_words(const description::Robot& robot) {
+    const std::string wheels = description::wheels_that_stand(robot);
+    return wheels.empty() ? "; expected " : ": " + wheels + "; expected type=\"continuous\" of wheels, and ";
   }
 
   void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {

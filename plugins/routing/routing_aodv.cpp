@@ -20,6 +20,7 @@ constants are those of RFC 3561. Broadcasts reach the neighbours. `node_traversa
 since a hop takes one or two, and `active_route_timeout` twenty.
 Not modelled: hello messages, local repair, gratuitous replies, rate limits, blacklists, subnets, multicast.)";
   static constexpr auto phase = Router::phase;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       real("node_traversal_time", 0.04, 1e-4, 100, "s", "that a packet takes for a hop, roughly; at least two ticks"),
       real("active_route_timeout", 3, 0.01, 1e4, "s",

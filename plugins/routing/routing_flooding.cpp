@@ -31,6 +31,7 @@ is for or `ttl` hops are gone. So it takes the shortest ways, all of them, at th
 radio. Broadcasts reach everybody within `ttl` hops. Broadcasts are not acknowledged: where a network
 loses one, only another neighbour's copy makes up for it.)";
   static constexpr auto phase = Router::phase;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {integer("ttl", 35, 1, 255, "hops that a message may go"), Router::queue_param};
 
   explicit RoutingFlooding(Setup& s) : ttl(s.value("ttl")), router(s) {}

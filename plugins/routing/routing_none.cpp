@@ -23,6 +23,7 @@ struct RoutingNone {
       R"(The yardstick of the other routings: the same packets and counts, without relays. A message reaches whom its
 sender reaches itself.)";
   static constexpr auto phase = Router::phase;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {Router::queue_param};
 
   explicit RoutingNone(Setup& s) : router(s) {}

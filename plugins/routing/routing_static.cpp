@@ -44,6 +44,7 @@ struct RoutingStatic {
 empty `to` stands for all that have no row of their own. A message for whom there is no row ends as no_route;
 one that goes round in the table ends as ttl_expired. Broadcasts reach the neighbours.)";
   static constexpr auto phase = Router::phase;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {file("routes", "a table with columns at, to, next: names of radios").required(),
                                      integer("ttl", 64, 1, 255, "hops that a message may go"), Router::queue_param};
 

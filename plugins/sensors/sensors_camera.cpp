@@ -42,6 +42,7 @@ exp(-fog x distance), and leaves depth as it is.
 Depth has Gaussian noise of standard deviation depth_noise x depth^2, as of triangulation (Khoshelham and Elberink,
 Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 MB each at 320 x 240.)";
   static constexpr auto phase = MUSTER_SENSE;
+  static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot that carries it").required(),
       integer("camera", 0, 0, 1000, "its number, where a robot has several"),

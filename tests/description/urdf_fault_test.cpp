@@ -164,7 +164,13 @@ const Case cases[] = {
      link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "a", "b") + joint("j2", "a", "c") +
          joint("j3", "b", "c"),
      "7: link 'c' has two parents: 'a' (line 6) and 'b'"},
-    {"two_roots", link("a", mass) + link("b", mass), "3: link 'b' is a second root beside 'a'; expected one tree"},
+    {"two_roots", link("a", mass) + link("b", mass),
+     "3: link 'b' is a second root beside 'a'; expected one tree: a <joint> with <child link=\"b\"/>"},
+    {"a_link_on_no_joint", link("a_lidar", mass) + link("base", mass) + link("c", mass) + joint("j", "base", "c"),
+     "2: link 'a_lidar' is a second root beside 'base'; expected one tree: a <joint> with <child link=\"a_lidar\"/>"},
+    {"words_of_a_name_in_another_order",
+     link("base", mass) + link("wheel_left_link", mass) + joint("j", "base", "left_wheel_link"),
+     "4: joint 'j': link 'left_wheel_link' is not known; did you mean 'wheel_left_link'?"},
     {"mimic_of_itself",
      link("a", mass) + link("b", mass) + joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/><mimic joint='j'/>"),
      "4: joint 'j': mimics itself"},
@@ -225,6 +231,19 @@ const Case cases[] = {
     {"wheel_base_contradicts_joints", wheels(good, "0 1 0", "0.11"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y): it "
      "is at y = 0.11 m, expected 0.1"},
+    {"wheel_base_in_millimetres",
+     wheels("left='jl' right='jr' wheel_radius='50' wheel_base='200' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y): it is at y = "
+     "0.1 m, expected 100; is wheel_base=\"200\" in millimetres? expected 0.2"},
+    {"sides_exchanged",
+     wheels("left='jr' right='jl' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> joint 'jr' is not half a wheel_base from the body's x axis (left: +y, right: -y): it is at y = "
+     "-0.1 m, expected 0.1; are left and right exchanged?"},
+    {"wheel_radius_in_centimetres",
+     wheels("left='jl' right='jr' wheel_radius='5' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'",
+            "0 1 0", "0.1", round("<sphere radius='0.05'/>", "0 0 0")),
+     "7: <differential> wheel_radius=\"5\" contradicts the wheel of joint 'jr', whose collision shape has a radius of "
+     "0.05; is wheel_radius=\"5\" in centimetres? expected 0.05"},
     {"wheel_radius_contradicts_cylinder",
      wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.09' length='0.02'/>", "1.5708 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "

@@ -129,7 +129,7 @@ TEST(UrdfOfRos, MassAndInertiaAreHeldAgainstTheShapes) {
   EXPECT_EQ(
       warnings_of(box("30000", "5000")),
       Texts({"2: link 'a': its mass of 3e+04 kg gives its collision shapes a density of 3e+04 kg/m3; expected 1 to "
-             "2.26e+04 (osmium)"}));
+             "2.26e+04 (osmium); are these grams?"}));
 }
 
 std::string two_wheels(const std::string& left = wheel, const std::string& left_axis = "0 1 0") {
@@ -300,6 +300,11 @@ TEST(UrdfOfRos, FittingsHoldWhatAUrdfLacks) {
   EXPECT_TRUE(robot.drive);
   EXPECT_EQ(robot.sensors.size(), 1u);
   EXPECT_EQ(robot.warnings, Texts());
+  const std::string uneven =
+      files.write("u.urdf", "<robot name='r'>\n" + two_wheels(with(wheel, "0.00263", "0.00264")) + "</robot>\n");
+  const Texts of_wheels = read_robot(uneven, Meshes::import, {"", more}).warnings;
+  ASSERT_EQ(of_wheels.size(), 1u);  // of the file of links, whose line it names
+  for (const std::string& warning : of_wheels) EXPECT_EQ(warning.rfind(uneven + ":", 0), 0u) << warning;
   const std::string wrong = files.write("wrong.xml", "<robot>\n<link name='a'/></robot>");
   EXPECT_EQ(message_of([&] {
               read_robot(path, Meshes::import, {"", wrong});

@@ -345,6 +345,23 @@ TEST(Model, IsFoundByNameOrPath) {
   EXPECT_EQ(find_model(files.at("one/a.urdf"), folders), files.at("one/a.urdf"));
 }
 
+// The world's folder comes last: for a name, but not for a path.
+TEST(Model, AFileOfTheWorldComesBeforeABuiltInModel) {
+  Files files;
+  files.write("plugins/models/husky.urdf", "");
+  files.write("world/husky.urdf", "");
+  const std::string plugins = files.at("plugins"), world = files.at("world");
+  const std::vector<std::string> folders = {plugins, plugins + "/models", world, world + "/models"};
+  EXPECT_EQ(find_model("husky.urdf", folders), world + "/husky.urdf");
+  EXPECT_EQ(find_model("./husky.urdf", folders), world + "/./husky.urdf");
+  EXPECT_EQ(find_model("husky", folders), plugins + "/models/husky.urdf");
+  EXPECT_EQ(doubt_of_model("husky", folders),
+            "model=\"husky\" is " + plugins + "/models/husky.urdf; the file " + world +
+                "/husky.urdf is not read; expected model=\"husky.urdf\" where that is meant");
+  EXPECT_EQ(doubt_of_model("husky.urdf", folders), "");
+  EXPECT_EQ(doubt_of_model("husky", {plugins, plugins + "/models"}), "");
+}
+
 TEST(Model, AbsentOneIsNamedWithItsNearest) {
   Files files;
   files.write("scarab.urdf", "");

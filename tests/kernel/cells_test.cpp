@@ -23,14 +23,16 @@ TEST_F(CellKinds, EachFaultIsNamed) {
     EXPECT_EQ(cell(sim, "robot/b/odd"), 3);
     return error;
   };
-  const std::string place = "3 world.xml:4:1: f (toy.fault): step failed at tick 3 (t = 1.5 s): ";
-  EXPECT_EQ(fault("nan"), place + "robot/b/odd: x[m] is NaN");
-  EXPECT_EQ(fault("infinite"), place + "robot/b/odd: x[m] is infinite");
+  const std::string place = "3 world.xml:4:1: f (toy.fault): step failed at tick 3 (t = 1.5 s): ",
+                    none = "; expected a number: 0 / 0 is none, nor a logarithm or root of less than 0",
+                    over_0 = "; expected a number: a value over 0 is none";
+  EXPECT_EQ(fault("nan"), place + "robot/b/odd: x[m] is NaN" + none);
+  EXPECT_EQ(fault("infinite"), place + "robot/b/odd: x[m] is infinite" + over_0);
   EXPECT_EQ(fault("nan_for_null"), place + "robot/b/odd: rssi[dBm] is NaN; an empty cell is muster::null()");
-  EXPECT_EQ(fault("minus_infinite"), place + "robot/b/odd: rssi[dBm] is infinite");
+  EXPECT_EQ(fault("minus_infinite"), place + "robot/b/odd: rssi[dBm] is infinite" + over_0);
   EXPECT_EQ(fault("no_row"), place + "robot/b/odd: friend is no row of robot");
   EXPECT_EQ(fault("half_row"), place + "robot/b/odd: mate is no row of robot");
-  EXPECT_EQ(fault("null_row"), place + "robot/b/odd: friend is NaN");
+  EXPECT_EQ(fault("null_row"), place + "robot/b/odd: friend is NaN" + none);
   EXPECT_EQ(fault("throws"), place + "the wheel came off");
   EXPECT_EQ(fault("throws_int"), place + "threw something that is not a std::exception");
   EXPECT_EQ(fault("fails"), place + "gave no reason");
@@ -50,7 +52,9 @@ TEST_F(CellKinds, CellsThatNobodyFillsAreFound) {
   Simulation sim = run(two_robots + "<toy.lazy name='l' at='2'/>\n");
   step(sim);
   EXPECT_EQ(error_of([&] { sim.step(); }),
-            "3 world.xml:4:1: l (toy.lazy): step failed at tick 2 (t = 1 s): robot/b/two: a is not filled");
+            "3 world.xml:4:1: l (toy.lazy): step failed at tick 2 (t = 1 s): robot/b/two: a is not filled; expected "
+            "step() to "
+            "fill each cell that it writes in every tick, also where nothing is to change");
 }
 
 TEST_F(CellKinds, EmptyInfiniteAndManyAlike) {

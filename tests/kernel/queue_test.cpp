@@ -204,7 +204,8 @@ TEST_F(Queues, CellsOfAppendedRowsAreFilledAnewEachTime) {
   Simulation sim = run(two_robots + "<toy.lazy name='s' queue='true' at='3'/>\n");
   step(sim, 2);
   EXPECT_EQ(error_of([&] { sim.step(); }),
-            "3 world.xml:4:1: s (toy.lazy): step failed at tick 3 (t = 1.5 s): outbox/1/message: radio is not filled");
+            "3 world.xml:4:1: s (toy.lazy): step failed at tick 3 (t = 1.5 s): outbox/1/message: radio is not filled; "
+            "expected step() to fill each cell that it writes in every tick, also where nothing is to change");
 }
 
 }  // namespace

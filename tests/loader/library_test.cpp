@@ -90,11 +90,14 @@ TEST_F(LibraryTest, SaysWhereItLookedAndWhatIsNear) {
 // ---- Other files ----
 
 TEST_F(LibraryTest, RefusesWhatIsNotAMusterPlugin) {
-  EXPECT_EQ(words_for("no_section"),
-            "is a shared library but no muster plugin: it has no section muster.abi.1; expected one "
-            "that muster_plugin() of plugin_api builds");
+  EXPECT_EQ(
+      words_for("no_section"),
+      "is a shared library but no muster plugin: it has no section muster.abi.1; expected MUSTER_PLUGIN_IS(NAME) at "
+      "the end of its source, and a build by muster_plugin() of plugin_api");
   EXPECT_EQ(words_for("no_register"), "does not export muster_register; expected one MUSTER_PLUGIN_IS in it");
-  EXPECT_EQ(words_for("impostor"), "registers \"zoo.other\"; expected \"zoo.impostor\"");
+  EXPECT_EQ(words_for("impostor"),
+            "registers \"zoo.other\"; expected \"zoo.impostor\"; write id = \"zoo.impostor/1\" in its source, or "
+            "muster_plugin(zoo_other ...) in its CMakeLists.txt and <zoo.other/> in the world");
 }
 
 TEST_F(LibraryTest, RefusesAnotherAbiBeforeAnythingOfItRuns) {
@@ -280,7 +283,9 @@ TEST_F(LibraryTest, ListsEveryFileWithItsReason) {
   EXPECT_EQ(listed[1].file, folder / "zoo_good.so");
   EXPECT_EQ(listed[1].reason, "");
   EXPECT_EQ(listed[1].library->id(), "zoo.good");
-  EXPECT_EQ(listed[2].reason, "registers \"zoo.good\"; such a file is called zoo_good.so");
+  EXPECT_EQ(listed[2].reason,
+            "registers \"zoo.good\"; such a file is called zoo_good.so, by "
+            "muster_plugin(zoo_good ...) in its CMakeLists.txt");
   EXPECT_EQ(listed[3].reason, "is hidden by " + (folder / "zoo_good.so").string());
 }
 

@@ -50,6 +50,13 @@ TEST(Names, KnowsWhatOtherSimulatorsCallThings) {
   EXPECT_EQ(did_you_mean("modle", of_robot), R"(; did you mean "model"?)");
 }
 
+TEST(Names, FindsANameByItsBeginningBeforeANearerOne) {
+  EXPECT_EQ(did_you_mean("robot/*/odom", {"robot/*/body", "robot/*/odometry"}),
+            R"(; did you mean "robot/*/odometry"?)");
+  EXPECT_EQ(did_you_mean("robot/*/od", {"robot/*/body", "robot/*/odometry"}), R"(; did you mean "robot/*/body"?)");
+  EXPECT_EQ(did_you_mean("radio.multi", {"radio.multiwall/n"}), R"()");  // that of a whole name, not of its path
+}
+
 TEST(Names, FindsANameByItsEnd) {
   EXPECT_EQ(did_you_mean("simbody", {"control.goal2d", "physics.simbody"}), R"(; did you mean "physics.simbody"?)");
   EXPECT_EQ(did_you_mean("speed", {"steer/turn_speed", "steer/speed"}), R"(; did you mean "steer/speed"?)");

@@ -188,6 +188,16 @@ TEST_F(Table, RefusesAQuotedNumberWithAReason) {
             "d.csv:2:3: column \"b\": \"7\" is in quotes, so it is a name; expected a number");
 }
 
+TEST_F(Table, OfAnotherTableTheWholeHeaderIsNamed) {
+  const TextTable walls = read("name,x1,y1,x2,y2\nw,0,0,1,1\n");
+  EXPECT_EQ(error([&] {
+              walls.require_most({{"name", ""}, {"x0", "m"}, {"y0", "m"}, {"x1", "m"}, {"y1", "m"}});
+            }),
+            "d.csv:1:1: no columns \"x0[m]\", \"y0[m]\" in the table, which has name, x1, y1, x2, y2; expected "
+            "name,x0[m],y0[m],x1[m],y1[m]");
+  walls.require_most({{"name", ""}, {"x0", "m"}, {"x1", "m"}});  // one alone has its own message
+}
+
 TEST_F(Table, RequiresColumnsByNameAndUnit) {
   const TextTable table = read(radio);
   EXPECT_EQ(error([&] { table.require("rsi", "dBm"); }),

@@ -115,6 +115,50 @@ bool moves(const LinkModel& model, int radio, double least) {
   return false;
 }
 
+// The radio at the other end wherever `radio` is, if it is within a metre of a place throughout; -1 if there is none.
+int stands_there(const LinkModel& model, int radio, const Mount& place) {
+  constexpr double near = 1;  // m
+  int other = -1;
+  for (const auto& ends : model.ends()) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (ends[end].radio != radio) continue;
+      const End& far = ends[1 - end];
+      if (std::hypot(far.x - place.x, far.y - place.y) > near || (other >= 0 && far.radio != other)) return -1;
+      other = far.radio;
+    }
+  }
+  return other;
+}
+
+// True if all places of the data lie outside of the plan, and nearly all within it when moved by -dx, -dy.
+bool is_moved_frame(const LinkModel& model, double dx, double dy) {
+  const Plan plan = plan_of(model);
+  if (plan.x1 <= plan.x0 || plan.y1 <= plan.y0) return false;
+  constexpr double margin = 1, most_outside = 0.05;  // m, share
+  std::size_t ends = 0, outside = 0;
+  for (const auto& row : model.ends()) {
+    for (const End& end : row) {
+      if (plan.holds(end.x, end.y, margin)) return false;
+      ++ends;
+      outside += !plan.holds(end.x - dx, end.y - dy, margin);
+    }
+  }
+  return static_cast<double>(outside) <= most_outside * static_cast<double>(ends);
+}
+
+// "x_column - 150" of an import map.
+std::string shifted(const std::string& column, double by) {
+  return column + "[m] = COLUMN " + (by < 0 ? "+ " : "- ") + print_real(std::abs(by));
+}
+
+std::string doubt_of_frame(const LinkModel& model, double dx, double dy) {
+  if (!is_moved_frame(model, dx, dy)) return "";
+  return "; all places of the data lie outside of the world's walls, and inside if they are moved by " +
+         print_real(-dx) + ", " + print_real(-dy) +
+         " m: are they of another frame? expected the plan's (a map of muster import: " + shifted("rx_x", dx) + ", " +
+         shifted("rx_y", dy) + ", and tx_x, tx_y alike)";
+}
+
 std::vector<std::string> check_stations(const LinkModel& model, const Dataset& data) {
   std::vector<std::string> notes;
   const Table* mounts = model.simulation().board().find("radio/*/mount");
@@ -134,10 +178,16 @@ std::vector<std::string> check_stations(const LinkModel& model, const Dataset& d
       const std::string there = place(mount.x, mount.y) + " in the world",
                         what = quote(name) + " stands at " + place(end.x, end.y) + " in the data and at " + there;
       if (turned < 0.01) throw invalid(data.table->place(row, 0), what + ": x and y are exchanged");
-      if (moves(model, end.radio, 0.5))
-        notes.push_back(quote(name) + " moves in the data and stands at " + there + "; the data's places are used");
-      else
-        notes.push_back(what + "; the data's place is used");
+      if (!moves(model, end.radio, 0.5)) {
+        notes.push_back(what + "; the data's place is used" + doubt_of_frame(model, end.x - mount.x, end.y - mount.y));
+        continue;
+      }
+      const int other = stands_there(model, end.radio, mount);
+      notes.push_back(quote(name) + " moves in the data and stands at " + there + "; the data's places are used" +
+                      (other < 0 ? ""
+                                 : ", in which " + quote(model.radio_name(other)) +
+                                       " stands there: are the names in tx and rx exchanged? (a map of muster import: "
+                                       "tx = the column of rx, rx = that of tx)"));
     }
   }
   return notes;

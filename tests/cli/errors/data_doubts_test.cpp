@@ -28,7 +28,9 @@ struct Reading {
 };
 
 // What the fit says of readings along a zigzag, each changed.
-std::string said_of_data(const std::function<void(Reading&)>& change, const std::string& column = "") {
+std::string said_of_data(const std::function<void(Reading&)>& change, const std::string& column = "",
+                         const std::string& station = "0,0,1", const std::string& names = "base,rover",
+                         const std::string& verb = "fit") {
   const ProgramFolder folder;
   folder.write("world.xml", walled);
   std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]" +
@@ -37,11 +39,11 @@ std::string said_of_data(const std::function<void(Reading&)>& change, const std:
     Reading r{1 + i * 0.3, i % 7 - 3.0, 1, 0};
     r.rssi = -40 - 20 * std::log10(std::hypot(r.x, r.y)) + (i * 7 % 5 - 2) * 0.4;
     change(r);
-    text += fmt::format("{},base,rover,0,0,1,{:.6f},{:.6f},{:.3f},{:.2f}{}\n", i, r.x, r.y, r.z, r.rssi,
+    text += fmt::format("{},{},{},{:.6f},{:.6f},{:.3f},{:.2f}{}\n", i, names, station, r.x, r.y, r.z, r.rssi,
                         column.empty() ? "" : fmt::format(",{}", i % 3));
   }
   folder.write("data.csv", text);
-  const Outcome outcome = folder.muster({"fit", "world.xml", "--data", "data.csv"});
+  const Outcome outcome = folder.muster({verb, "world.xml", "--data", "data.csv"});
   return outcome.out + outcome.err;
 }
 
@@ -57,6 +59,31 @@ TEST(DataDoubts, Centimetres) {
 TEST(DataDoubts, AnotherSite) {
   EXPECT_THAT(said_of_data([](Reading& r) { r.x += 600; }),
               HasSubstr("m beside the plan of the walls, 22 x 8 m; are they of another site, or from another origin?"));
+}
+
+TEST(DataDoubts, AnotherFrame) {
+  EXPECT_THAT(
+      said_of_data([](Reading& r) { r.x += 150, r.y += 320; }, "", "150,320,1"),
+      HasSubstr(
+          "note: \"base\" stands at x = 150, y = 320 m in the data and at x = 0, y = 0 m in the world; the data's "
+          "place is used; all places of the data lie outside of the world's walls, and inside if they are moved by "
+          "-150, -320 m: are they of another frame? expected the plan's (a map of muster import: rx_x[m] = COLUMN "
+          "- 150, rx_y[m] = COLUMN - 320, and tx_x, tx_y alike)"));
+}
+
+TEST(DataDoubts, NamesExchanged) {
+  EXPECT_THAT(said_of_data([](Reading&) {}, "", "0,0,1", "rover,base"),
+              HasSubstr("note: \"base\" moves in the data and stands at x = 0, y = 0 m in the world; the data's places "
+                        "are used, in which \"rover\" stands there: are the names in tx and rx exchanged? (a map of "
+                        "muster import: tx = the column of rx, rx = that of tx)"));
+}
+
+TEST(DataDoubts, FeaturesAsksTheSame) {
+  EXPECT_THAT(
+      said_of_data([](Reading& r) { r.x *= 100, r.y *= 100; }, "", "0,0,1", "base,rover", "features"),
+      HasSubstr("\nnote: places of \"rover\" reach from x = 100, y = -300 to x = 1870, y = 300 m, far beyond the "
+                "plan of the walls, 22 x 8 m, and lie in it as centimetres; are they centimetres? expected metres "
+                "(a map of muster import: rx_x[m] = 0.01*COLUMN)\n"));
 }
 
 TEST(DataDoubts, Degrees) {

@@ -103,6 +103,9 @@ TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {
   const std::vector<std::string> log = {"--out", "out", "--record", "instance/steady/cell"};
   for (const auto& [toy, said] : {std::pair{"throws_in_step", "!the shelf is empty"},
                                   std::pair{"throws_a_number", "threw something that is not a std::exception"},
+                                  std::pair{"throws_out_of_range",
+                                            "threw std::out_of_range: no third wheel; a debugger shows where: gdb -ex "
+                                            "'catch throw' -ex run --args muster ..."},
                                   std::pair{"bare", "no such shelf"}}) {
     SCOPED_TRACE(toy);
     const ProgramFolder folder;
@@ -113,6 +116,32 @@ TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {
     EXPECT_THAT(text, testing::EndsWith(",4\n"));
     EXPECT_THAT(text, testing::StartsWith("t[s],instance"));
   }
+}
+
+TEST(Fault16, AStepThatMayKeepStateIsWarnedOf) {
+  const ProgramFolder folder;
+  const std::string said =
+      "warning: world.xml:1:36: its step() is not const: what it keeps in members is lost where a run is restored or a "
+      "plugin swapped; expected state in a table, s.write<State>(\"self/state\") and k.last(state), and void "
+      "step(const "
+      "Step& k) const; or, where members hold only what can be computed again, static constexpr bool keeps_only_caches "
+      "= "
+      "true";
+  const auto checked = [&](const std::string& toy) {
+    folder.write("world.xml", world_of("<test." + toy + " name=\"shelf\"/>"));
+    const auto outcome = folder.muster({"check", "world.xml", "--plugins", toys});
+    return outcome.out + outcome.err;
+  };
+  EXPECT_THAT(checked("keeps"), testing::HasSubstr(said));
+  for (const char* toy : {"good", "keeps_caches"}) EXPECT_THAT(checked(toy), testing::Not(testing::HasSubstr("const")));
+}
+
+TEST(Fault19, ColumnsAreSeparatedByBlanks) {
+  const ProgramFolder folder;
+  expect_error(
+      run_toy(folder, "<test.commas/>"), 2,
+      "world.xml:1:36: test.commas (test.commas): claims \"self/goal\": columns \"x[m],y[m], z[m]\" are parted "
+      "by other signs than blanks; expected \"x[m] y[m] z[m]\"");
 }
 
 TEST(Fault16, ThrowsWhenItIsDestroyed) {
@@ -129,7 +158,11 @@ TEST(Fault16, ThrowsWhenItIsDestroyed) {
 TEST(Fault19, ValuesThatAreNoneAreTheirWritersFault) {
   const ProgramFolder folder;
   for (const auto& [toy, wrong] :
-       {std::pair{"nan", "is NaN"}, std::pair{"infinite", "is infinite"}, std::pair{"unfilled", "is not filled"}}) {
+       {std::pair{"nan", "is NaN; expected a number: 0 / 0 is none, nor a logarithm or root of less than 0"},
+        std::pair{"infinite", "is infinite; expected a number: a value over 0 is none"},
+        std::pair{"unfilled",
+                  "is not filled; expected step() to fill each cell that it writes in every tick, also where "
+                  "nothing is to change"}}) {
     SCOPED_TRACE(toy);
     const std::string id = std::string("test.") + toy;
     expect_error(run_toy(folder, "<" + id + " name=\"shelf\"/>"), 3,

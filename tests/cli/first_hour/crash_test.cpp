@@ -18,7 +18,9 @@ TEST(Crash, OfAStepNamesThePluginAndTheTick) {
   if (sanitized) GTEST_SKIP() << "the sanitizer reports it";
   const std::string line =
       "muster: error: world.xml:1:36: mine (test.crash): step crashed at tick 3: a segmentation fault (SIGSEGV) in the "
-      "plugin; a debugger shows where: gdb --args muster ...\n";
+      "plugin; a debugger shows where, and the line of a plugin built with -D CMAKE_BUILD_TYPE=Debug: gdb -ex run "
+      "--args "
+      "muster ...\n";
   const auto alone = crashed("", "1");
   EXPECT_EQ(alone.exit, 128 + 11);
   EXPECT_EQ(alone.err, line);

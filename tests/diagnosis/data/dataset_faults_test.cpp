@@ -204,7 +204,9 @@ TEST(DatasetFaults, DegreesAreNoted) {
   const Scratch scratch;
   const Dataset data = read_dataset(scratch.write("d.csv", text));
   ASSERT_EQ(data.notes.size(), 1u);
-  EXPECT_EQ(data.notes[0], "column \"rx_yaw[rad]\" goes from 0 to 330 rad: are these degrees?");
+  EXPECT_EQ(data.notes[0],
+            "column \"rx_yaw[rad]\" goes from 0 to 330 rad: are these degrees? expected radians (a map of "
+            "muster import: rx_yaw[rad] = 0.017453292519943295*COLUMN)");
 }
 
 }  // namespace

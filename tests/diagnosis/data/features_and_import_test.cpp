@@ -108,6 +108,29 @@ TEST(Import, WideToLongWithUnitsAndAnchors) {
   EXPECT_TRUE(said("radians"));
 }
 
+TEST(Import, AColumnNamedAfterAnotherUnitIsAskedAbout) {
+  const Scratch scratch;
+  const auto file =
+      scratch.write("a.csv", "x_cm,y (mm),t_ms,power_mW,yaw_deg,x_min,rssi\n1,2,3,4,5,6,-50\n2,3,4,5,6,7,-51\n");
+  const auto map =
+      scratch.write("m.map",
+                    "tx = \"a\"\nrx = \"b\"\ntx_x[m] = x_min\ntx_y[m] = 0.01*x_cm\nrx_x[m] = x_cm\nrx_y[m] = y "
+                    "(mm)\nrx_yaw[rad] = yaw_deg\nrssi[dBm] = rssi\n");
+  const Imported done = import_table({file}, map, scratch / "out.csv");
+  const auto said = [&](const std::string& line) {
+    return std::count(done.assumed.begin(), done.assumed.end(), line) == 1;
+  };
+  EXPECT_TRUE(
+      said("rx_x[m] = \"x_cm\", taken to be in m; is it in cm? expected rx_x[m] = 0.01*x_cm in line 5 of the map"));
+  EXPECT_TRUE(said(
+      "rx_y[m] = \"y (mm)\", taken to be in m; is it in mm? expected rx_y[m] = 0.001*y (mm) in line 6 of the map"));
+  EXPECT_TRUE(
+      said("rx_yaw[rad] = \"yaw_deg\", taken to be in rad; is it in deg? expected rx_yaw[rad] = "
+           "0.017453292519943295*yaw_deg in line 7 of the map"));
+  EXPECT_TRUE(said("tx_x[m] = \"x_min\", taken to be in m"));
+  EXPECT_TRUE(said("tx_y[m] = 0.01 x \"x_cm\""));
+}
+
 TEST(Import, WhatDoesNotFitIsNamed) {
   const Scratch scratch;
   scratch.write("anchors.csv", "id,x,y\n1,5,0\n");

@@ -104,6 +104,28 @@ TEST(Replay, DegreesAndJumpsAreWarnedOfOnce) {
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,6.28\n"), std::vector<std::string>());
 }
 
+// As a log of ROS has them: the robot would stand at its first place for the whole run.
+TEST(Replay, TimesThatTheRunNeverComesToAreWarnedOf) {
+  const auto said = [](const std::string& rows) {
+    Folder folder;
+    Simulation run = replayed(folder, "t[s],robot,x[m],y[m],yaw[rad]\n" + rows);
+    run.step();
+    std::string result;
+    for (const auto& event : run.events())
+      if (const auto at = event.message.find(".csv:"); at != std::string::npos) result += event.message.substr(at);
+    return result;
+  };
+  const std::string end = " s, and the run is from 0 to 600 s, so that it never moves; ";
+  EXPECT_EQ(said("1717401234.5,a,0,0,0\n1717401254.25,a,1,0,0\n"),
+            ".csv:2:1: the rows of robot 'a' are from t = 1717401234.5 to 1717401254.25" + end +
+                "are these seconds since 1970? expected seconds of the run: the time less that of its start");
+  EXPECT_EQ(said("5000,a,0,0,0\n5001,a,1,0,0\n"),
+            ".csv:2:1: the rows of robot 'a' are from t = 5000 to 5001" + end + "expected seconds of the run");
+  EXPECT_EQ(said("-5,a,0,0,0\n-4,a,1,0,0\n"),
+            ".csv:2:1: the rows of robot 'a' are from t = -5 to -4" + end + "expected seconds of the run");
+  EXPECT_EQ(said("-5,a,0,0,0\n0.5,a,1,0,0\n"), "");
+}
+
 TEST(Replay, WrongRowsAreNamed) {
   using testing::HasSubstr;
   const std::string head = "t[s],robot,x[m],y[m],z[m],yaw[rad]\n";

@@ -212,6 +212,26 @@ TEST(Attitude, AFileOfSeveralRobotsServesEach) {
   EXPECT_EQ(thrust("b"), 8);
 }
 
+TEST(Attitude, CommandsThatTheRunNeverComesToAreWarnedOf) {
+  const Folder folder;
+  commanded(folder, {}, "0,0,0", "0.01");
+  folder.write(
+      "steps.csv",
+      "t[s],cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n1717401234,0,0,0,0\n1717401235,0,0,0,0\n");
+  Simulation run(read_world(folder / "world.xml", standard()), standard(), options());
+  run.step();
+  run.step();
+  std::vector<std::string> said;
+  for (const auto& event : run.events())
+    if (const auto at = event.message.find("steps.csv:2:1: "); at != std::string::npos)
+      said.push_back(event.message.substr(at));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_THAT(said[0], testing::HasSubstr(" are from t = 1717401234 to 1717401235 s, and the run is from 0 to "));
+  EXPECT_THAT(said[0],
+              testing::EndsWith(" s, so that none is ever given; are these seconds since 1970? expected seconds of "
+                                "the run: the time less that of its start"));
+}
+
 TEST(Attitude, CommandsMustRiseInTime) {
   const Folder folder;
   commanded(folder, {}, "0,0,0", "0.01");

@@ -15,6 +15,18 @@
 #define TOY_DESTROY
 #endif
 
+#ifndef TOY_STEP_CONST
+#define TOY_STEP_CONST const
+#endif
+#ifndef TOY_KEEPS_CACHES
+#define TOY_KEEPS_CACHES false
+#endif
+
+struct Commas {
+  static constexpr const char* columns = "x[m],y[m], z[m]";
+  double x, y, z;
+};
+
 struct Cell {
   static constexpr const char* columns = "value[m]";
   double value;
@@ -26,11 +38,13 @@ struct Toy {
   static constexpr muster::Param params[] = {muster::real("size", 1, 0, 10, "m", "how tall it is").free()};
   explicit Toy(muster::Setup& setup) : cell(setup.write<Cell>("self/cell")) { TOY_CREATE; }
   ~Toy() noexcept(false) { TOY_DESTROY; }
-  void step(const muster::Step& k) const {
+  static constexpr bool keeps_only_caches = TOY_KEEPS_CACHES;
+  void step(const muster::Step& k) TOY_STEP_CONST {
     if (k.tick() == 5) {
       TOY_STEP;
     }
     k[cell]->value = static_cast<double>(k.tick());
   }
   muster::Out<Cell> cell;
+  int kept = 0;
 };

@@ -1,0 +1,46 @@
+// Times of a table that a run never comes to.
+#pragma once
+
+#include <charconv>
+#include <cstdio>
+#include <muster/plugin.hpp>
+#include <string>
+
+namespace muster {
+
+class TableTimes {
+ public:
+  // `param` is the parameter that names the table's file. For constructors of plugins.
+  TableTimes(const Setup& s, const char* param) {
+    const std::string world = s.text("world/file"), end = s.text("world/until");
+    std::from_chars(end.data(), end.data() + end.size(), until_);
+    file_ = s.text(param);
+    const std::size_t folder = file_.rfind('/', 0) == 0 ? std::string::npos : world.rfind('/');
+    if (folder != std::string::npos) file_.insert(0, world, 0, folder + 1);
+  }
+
+  // Warns once of each call where rows from time `first` to `last` [s] do not meet the run. `row` is the first of them,
+  // from 0; `what` is said of them, such as "the rows of robot 'a' are", and `so` follows, such as "it never moves".
+  void warn_of(const Step& k, double first, double last, std::size_t row, const std::string& what,
+               const std::string& so) const {
+    if (!(until_ > 0) || (first <= until_ && last >= 0)) return;
+    constexpr double since_1970 = 1e8;  // [s] three years, which no run has
+    const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
+                             : first > since_1970      ? "; are these seconds since 1970? expected "
+                                                       : "; expected ";
+    k.event("warning: " + file_ + ":" + std::to_string(row + 2) + ":1: " + what + " from t = " + print(first) + " to " +
+            print(last) + " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit +
+            "seconds of the run" + (first > since_1970 ? ": the time less that of its start" : ""));
+  }
+
+ private:
+  static std::string print(double value) {
+    char text[32];
+    return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.14g", value))};
+  }
+
+  double until_ = 0;  // [s]
+  std::string file_;
+};
+
+}  // namespace muster
