@@ -29,8 +29,8 @@ std::string value_in(const char* file, const std::string& name, char between) {
 
 std::vector<std::string> features() {
   std::istringstream x86(value_in("/proc/cpuinfo", "flags", ':')), arm(value_in("/proc/cpuinfo", "Features", ':'));
-  static const std::vector<std::string> of_x86 = {"sse4_1", "sse4_2",   "avx",      "f16c",     "fma",     "avx2",
-                                                  "bmi2",   "avx512f",  "avx512dq", "avx512cd", "avx512bw", "avx512vl"};
+  static const std::vector<std::string> of_x86 = {"sse4_1", "sse4_2",  "avx",      "f16c",     "fma",      "avx2",
+                                                  "bmi2",   "avx512f", "avx512dq", "avx512cd", "avx512bw", "avx512vl"};
   std::vector<std::string> result;
   for (std::string one; x86 >> one;)
     if (std::find(of_x86.begin(), of_x86.end(), one) != of_x86.end()) result.push_back(one);

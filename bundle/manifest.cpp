@@ -35,8 +35,9 @@ class ManifestReader {
     result.date = text_at(json_, "date");
     result.muster = text_at(json_, "muster");
     const auto& machine = at(json_, "machine");
-    result.machine = {text_at(machine, "system"), text_at(machine, "architecture"), text_at(machine, "libc"),
-                      text_at(machine, "compiler"), text_at(machine, "cpu"), texts_at(machine, "cpu_features")};
+    result.machine = {text_at(machine, "system"), text_at(machine, "architecture"),
+                      text_at(machine, "libc"),   text_at(machine, "compiler"),
+                      text_at(machine, "cpu"),    texts_at(machine, "cpu_features")};
     const auto& run = at(json_, "run");
     result.world = text_at(run, "world");
     result.seed = number_at(run, "seed"), result.ticks = number_at(run, "ticks");

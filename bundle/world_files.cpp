@@ -63,8 +63,8 @@ std::string escaped(const std::string& text) {
 std::size_t offset_of(const std::string& text, const Place& place) {
   std::size_t at = 0;
   for (int line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
-  for (int column = 1; column < place.column; ++column)
-    do ++at;
+  for (int column = 1; column < place.column; ++column) do
+      ++at;
     while (at < text.size() && (text[at] & 0xC0) == 0x80);
   return at;
 }
@@ -132,8 +132,8 @@ void WorldFiles::read_named_in(const fs::path& source, const std::string& name) 
       const fs::path file = (root / rest).lexically_normal();
       if (root.empty() || !is_file(file) || !below(root, file)) return;
       const bool is_itself = root != packages_;
-      const std::string base = below(folder_, packages_) ? joined(inside_, *below(folder_, packages_))
-                                                         : elsewhere(packages_);
+      const std::string base =
+          below(folder_, packages_) ? joined(inside_, *below(folder_, packages_)) : elsewhere(packages_);
       add(file, is_itself ? joined(fs::path(base).parent_path().generic_string(), rest) : joined(base, rest));
       return;
     }

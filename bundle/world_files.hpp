@@ -29,7 +29,7 @@ class WorldFiles {
   bool has(const std::filesystem::path& source) const;
 
   const std::filesystem::path& folder() const { return folder_; }  // of the world
-  const std::string& world() const { return world_name_; }  // its file in the bundle
+  const std::string& world() const { return world_name_; }         // its file in the bundle
   // By their names in the bundle.
   const std::map<std::string, BundledFile>& files() const { return files_; }
 

@@ -177,9 +177,12 @@ Exit make_bundle(const BundleWords& words) {
 
   const std::string id = bundle::sha256_of(folder.path() / bundle::manifest_name);
   if (words.json) {
-    Json json{{"world", world.name}, {"seed", world.seed},
-              {"ticks", world.ticks}, {"digest", manifest.waymarks.back().digest},
-              {"list", id},           {"file", words.out},
+    Json json{{"world", world.name},
+              {"seed", world.seed},
+              {"ticks", world.ticks},
+              {"digest", manifest.waymarks.back().digest},
+              {"list", id},
+              {"file", words.out},
               {"files", Json::array()}};
     for (const bundle::ListedFile& file : manifest.files) json["files"].push_back(file.name);
     fmt::print("{}\n", json.dump(2));
@@ -189,8 +192,8 @@ Exit make_bundle(const BundleWords& words) {
              manifest.waymarks.back().digest);
   for (const bundle::ListedFile& file : manifest.files)
     if (!file.named.empty()) fmt::print("  {} is {} in the bundle\n", file.named, file.name);
-  fmt::print("  {} files, {} of them plugins; list {}\n  wrote {}\n", manifest.files.size(), manifest.plugins.size(), id,
-             words.out);
+  fmt::print("  {} files, {} of them plugins; list {}\n  wrote {}\n", manifest.files.size(), manifest.plugins.size(),
+             id, words.out);
   return Exit::done;
 }
 
@@ -206,21 +209,23 @@ Exit check_words(const BundleWords& words) {
   refuse_given(!words.data.empty(), "--data", making);
   if (words.plugins_of_bundle && !words.plugins.empty())
     throw Error(Exit::invalid_input, "--plugins and --plugins-of-bundle exclude each other; expected one of them");
-  return check_bundle({words.subject[1], words.out, words.plugins, words.workers, !words.plugins_of_bundle, words.json});
+  return check_bundle(
+      {words.subject[1], words.out, words.plugins, words.workers, !words.plugins_of_bundle, words.json});
 }
 
 }  // namespace
 
 int run_bundle(const Arguments& arguments) {
-  CommandLine line("bundle",
-                   "A run in one file: world, plugins, models, data, seed and options, with SHA-256 of each, and the "
-                   "digest that it came to.\n"
-                   "  WORLD       makes it; the world is run twice, where it lies and out of the bundle\n"
-                   "  check FILE  says whether it is whole, what differs on this machine, and whether the digest is the "
-                   "same here;\n"
-                   "              exit code 1 where it is not\n"
-                   "Example: muster bundle worlds/connectivity --until 20 --out out/connectivity.tar.zst\n"
-                   "         then: muster bundle check out/connectivity.tar.zst");
+  CommandLine line(
+      "bundle",
+      "A run in one file: world, plugins, models, data, seed and options, with SHA-256 of each, and the "
+      "digest that it came to.\n"
+      "  WORLD       makes it; the world is run twice, where it lies and out of the bundle\n"
+      "  check FILE  says whether it is whole, what differs on this machine, and whether the digest is the "
+      "same here;\n"
+      "              exit code 1 where it is not\n"
+      "Example: muster bundle worlds/connectivity --until 20 --out out/connectivity.tar.zst\n"
+      "         then: muster bundle check out/connectivity.tar.zst");
   BundleWords words;
   line.option("world", words.subject, "the world's folder or file; or the word check and a bundle").required();
   line.option("-o,--out", words.out, "the .tar.zst to write, a new file; check: a new folder to keep what is in it");
@@ -236,11 +241,10 @@ int run_bundle(const Arguments& arguments) {
   line.parse(arguments);
   const bool checks = words.subject[0] == "check" && words.subject.size() == 2;
   if (checks) return static_cast<int>(check_words(words));
+  if (words.subject[0] == "check")
+    throw Error(Exit::invalid_input, "check: expected one FILE after it; a world of that name is ./check");
   if (words.subject.size() != 1)
-    throw Error(Exit::invalid_input, words.subject[0] == "check"
-                                         ? "check: expected one FILE after it"
-                                         : "expected one WORLD, or check FILE; " + quote(words.subject[1]) +
-                                               " is too much");
+    throw Error(Exit::invalid_input, "expected one WORLD, or check FILE; " + quote(words.subject[1]) + " is too much");
   refuse_given(words.plugins_of_bundle, "--plugins-of-bundle", "`muster bundle check FILE`");
   if (words.out.empty()) throw Error(Exit::invalid_input, "--out is missing; expected a file to write, NAME.tar.zst");
   if (!words.out.ends_with(archive_ending))

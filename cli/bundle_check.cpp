@@ -41,8 +41,8 @@ class UnpackedBundle {
     try {
       bundle::unpack(file, path_);
       if (!fs::is_regular_file(path_ / bundle::manifest_name))
-        throw invalid({file}, std::string("has no ") + bundle::manifest_name +
-                                  "; expected a file that `muster bundle` wrote");
+        throw invalid({file},
+                      std::string("has no ") + bundle::manifest_name + "; expected a file that `muster bundle` wrote");
       manifest_ = bundle::read_manifest(path_ / bundle::manifest_name);
     } catch (...) {
       std::error_code ignored;
@@ -163,8 +163,7 @@ struct Parting {
   std::optional<std::uint64_t> same_until;  // the last tick seen at which all was the same
   std::vector<std::string> tables;
 };
-std::optional<Parting> parting_of(const std::vector<bundle::Waymark>& there,
-                                  const std::vector<bundle::Waymark>& here) {
+std::optional<Parting> parting_of(const std::vector<bundle::Waymark>& there, const std::vector<bundle::Waymark>& here) {
   std::optional<std::uint64_t> same;
   for (const bundle::Waymark& mark : there) {
     const auto own = std::find_if(here.begin(), here.end(), [&](const auto& m) { return m.tick == mark.tick; });

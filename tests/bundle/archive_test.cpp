@@ -50,14 +50,13 @@ class Archives : public testing::Test {
 
 TEST_F(Archives, GiveBackWhatWasPacked) {
   std::string all;
-  for (int i = 0; i < 300'000; ++i) all += static_cast<char>(i * 7919 % 256);
+  for (unsigned i = 0; i < 300'000; ++i) all += static_cast<char>(i * 7919u % 256u);
   const std::string far = std::string(60, 'd') + '/' + std::string(200, 'f');  // longer than tar's own field
   const std::vector<std::string> names{"bundle.json", "a/empty.csv", "a/b/all bytes", "a/\xC3\xBC.csv", far};
   for (const std::string& name : names) folder.write("from/" + name, name == "a/empty.csv" ? "" : name + all);
   pack(folder / "from", names, folder / "x.tar.zst");
   EXPECT_EQ(refusal_of_file(), "");
-  for (const std::string& name : names)
-    EXPECT_EQ(contents(inside() / name), folder.read("from/" + name)) << name;
+  for (const std::string& name : names) EXPECT_EQ(contents(inside() / name), folder.read("from/" + name)) << name;
   EXPECT_FALSE(fs::exists(folder / "x.tar.zst.part"));
 }
 
@@ -102,7 +101,8 @@ TEST_F(Archives, HaveNoLinksAndNoDevices) {
   EXPECT_EQ(refusal({{"out", "", AE_IFLNK, "../.."}, {"out/x", "2"}}), "x.tar.zst: has \"out\"" + link);
   EXPECT_EQ(refusal({{"mine", "1"}, {"other", "", AE_IFREG, "", "/etc/hostname"}}), "x.tar.zst: has \"other\"" + link);
   for (const int type : {AE_IFIFO, AE_IFCHR, AE_IFBLK})
-    EXPECT_EQ(refusal({{"odd", "", type}}), "x.tar.zst: has \"odd\", which is no plain file; a bundle has plain files alone");
+    EXPECT_EQ(refusal({{"odd", "", type}}),
+              "x.tar.zst: has \"odd\", which is no plain file; a bundle has plain files alone");
 }
 
 TEST_F(Archives, WriteNoFileTwice) {
@@ -127,8 +127,26 @@ TEST_F(Archives, EndAtTheirLimits) {
             "x.tar.zst: has more than 4 entries, and a bundle has no more");
   EXPECT_EQ(refusal(std::vector<HostileEntry>(9, {"m", "", AE_IFDIR}), limits),
             "x.tar.zst: has more than 4 entries, and a bundle has no more");
-  EXPECT_NE(refusal({{"n", "short", AE_IFREG, "", "", std::int64_t{1} << 50}}).find("of more than 1024 MB"),
-            std::string::npos);
+}
+
+// A header of tar: the size is 11 octal digits from byte 124 on, the sum of the bytes 6 from byte 148 on.
+TEST_F(Archives, ClaimNoSizeThatTheyHaveNot) {
+  const auto claiming = [&](const std::string& octal) {
+    write_archive(folder / "x.tar.zst", {{"n", "short"}}, false);
+    std::string bytes = folder.read("x.tar.zst");
+    bytes.replace(124, 11, octal);
+    bytes.replace(148, 8, "        ");
+    unsigned sum = 0;
+    for (std::size_t i = 0; i < 512; ++i) sum += static_cast<unsigned char>(bytes[i]);
+    char text[8];
+    std::snprintf(text, sizeof text, "%06o", sum);
+    bytes.replace(148, 7, text, 7);
+    folder.write("x.tar.zst", bytes);
+    return refusal_of_file();
+  };
+  EXPECT_EQ(claiming("77777777777"), "x.tar.zst: has \"n\" of more than 1024 MB, and a file of a bundle has no more");
+  EXPECT_FALSE(fs::exists(inside() / "n"));
+  EXPECT_NE(claiming("00000777777").find("is no whole bundle"), std::string::npos);
 }
 
 TEST_F(Archives, ThatAreCutShortOrDamagedAreRefused) {
@@ -143,7 +161,8 @@ TEST_F(Archives, ThatAreCutShortOrDamagedAreRefused) {
     EXPECT_NE(refusal_of_file(), "") << length << " of " << whole.size() << " bytes";
   }
   folder.write("x.tar.zst", "a plain text");
-  EXPECT_NE(refusal_of_file().find("is no whole bundle; expected a file that `muster bundle` wrote"), std::string::npos);
+  EXPECT_NE(refusal_of_file().find("is no whole bundle; expected a file that `muster bundle` wrote"),
+            std::string::npos);
 }
 
 }  // namespace

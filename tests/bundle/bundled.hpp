@@ -23,13 +23,16 @@ struct BundleFolder : ProgramFolder {
           "name,x0[m],y0[m],x1[m],y1[m],height[m],thickness[m],material\nw,20,-9,20,9,3,0.1,brick\n");
     write("lab/site/world.xml",
           "<world name=\"three ways\" dt=\"0.1\" until=\"3\" seed=\"1\">\n"
-          "<material name=\"brick\" loss=\"8\"/><walls file=\"../shared/walls.csv\"/><station name=\"s\" at=\"30 0 1\"/>\n"
+          "<material name=\"brick\" loss=\"8\"/><walls file=\"../shared/walls.csv\"/><station name=\"s\" at=\"30 0 "
+          "1\"/>\n"
           "<robot name=\"r\" at=\"0 0 0\"/><robot name=\"q\" at=\"0 5 0\"/><robot name=\"p\" at=\"0 10 0\"/>\n"
           "<physics.planar name=\"physics\"/><radio.multiwall tx_power=\"-10\" l0=\"40\" n=\"2.4\"/>\n"
           "<radio.fading shadowing=\"4\"/><network.ideal/><control.beacon radio=\"s\"/>\n"
-          "<control.waypoint robot=\"r\" path=\"a/way.csv\"/><control.waypoint robot=\"q\" path=\"b/way.csv\"/>\n"
-          "<control.waypoint robot=\"p\" path=\"../shared/way.csv\"/></world>");
-    write("counted/world.xml", "<world name=\"c\" dt=\"0.1\" until=\"2\" seed=\"1\"><test.revised name=\"counter\"/></world>");
+          "<control.waypoint name=\"u\" robot=\"r\" path=\"a/way.csv\"/><control.waypoint name=\"v\" robot=\"q\" "
+          "path=\"b/way.csv\"/>\n"
+          "<control.waypoint name=\"w\" robot=\"p\" path=\"../shared/way.csv\"/></world>");
+    write("counted/world.xml",
+          "<world name=\"c\" dt=\"0.1\" until=\"2\" seed=\"1\"><test.revised name=\"counter\"/></world>");
   }
   Outcome bundle(std::vector<std::string> words) const {
     words.insert(words.begin(), "bundle");

@@ -15,8 +15,7 @@ TEST_P(BundledWorld, ComesToTheSameDigestWithoutItsSources) {
   fs::copy(MUSTER_SOURCE_DIR "/worlds", folder / "worlds", fs::copy_options::recursive);
   const World world = read_world(place_of(GetParam()), standard());
   const double until = static_cast<double>(std::min(world.ticks, most_ticks)) * world.dt;
-  const auto made =
-      folder.told({"worlds/" + GetParam(), "--until", fmt::format("{}", until), "--out", "b.tar.zst"});
+  const auto made = folder.told({"worlds/" + GetParam(), "--until", fmt::format("{}", until), "--out", "b.tar.zst"});
   const std::string expected = fmt::format("{:016x}", plain_digest(GetParam()));
   EXPECT_EQ(made["digest"], expected);
   fs::rename(folder / "worlds", folder / "elsewhere");

@@ -1,4 +1,5 @@
-// The list of a bundle: hashes of known texts, what it says after it was written, and what of a folder is not as listed.
+// The list of a bundle: hashes of known texts, what it says after it was written, and what of a folder is not as
+// listed.
 #include "bundle/manifest.hpp"
 
 #include <gtest/gtest.h>
@@ -29,8 +30,9 @@ Manifest example() {
   result.world = "world/office/world.xml";
   result.seed = 0xFFFFFFFFFFFFFFFFu, result.ticks = 3, result.dt = 0.1;
   result.set = {"radio.multiwall/n=2.5"};
-  result.files = {{"world/office/world.xml", 3, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", ""},
-                  {"plugins/a_b.so", 0, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855", "../a_b.so"}};
+  result.files = {
+      {"world/office/world.xml", 3, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad", ""},
+      {"plugins/a_b.so", 0, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855", "../a_b.so"}};
   result.plugins = {{"a.b/2", "plugins/a_b.so"}};
   result.waymarks = {{0, "0000000000000001", {{"robot/*/pose", "00ff"}}}, {3, "0000000000000002", {}}};
   return result;

@@ -16,9 +16,10 @@ TEST(BundleRefusals, SayWhatWasExpected) {
   refuses({"lab/site", "--out", "b.zip"}, "--out: \"b.zip\" does not end in .tar.zst; expected NAME.tar.zst");
   refuses({"lab/site", "--out", "there.tar.zst"}, "--out: there.tar.zst is there already; expected a new file");
   refuses({"lab/site", "more", "--out", "b.tar.zst"}, "expected one WORLD, or check FILE; \"more\" is too much");
-  refuses({"lab/site", "--plugins-of-bundle", "--out", "b.tar.zst"}, "--plugins-of-bundle is of `muster bundle check FILE`");
+  refuses({"lab/site", "--plugins-of-bundle", "--out", "b.tar.zst"},
+          "--plugins-of-bundle is of `muster bundle check FILE`");
   refuses({"lab/site", "--data", "none.csv", "--out", "b.tar.zst"}, "--data: none.csv is no file; expected one");
-  refuses({"check"}, "check: expected one FILE after it");
+  refuses({"check"}, "check: expected one FILE after it; a world of that name is ./check");
   refuses({"check", "there.tar.zst", "--seed", "3"},
           "--seed is of the making of a bundle, which keeps it; expected it at `muster bundle WORLD`");
   refuses({"check", "there.tar.zst", "--plugins", "lab", "--plugins-of-bundle"},

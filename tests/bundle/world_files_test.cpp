@@ -46,15 +46,19 @@ TEST_F(WorldFilesTest, OutsideOfItAreNamedAnew) {
   folder.write("sites/shared/walls.csv", "");
   folder.write("sites/office/here.csv", "");
   const std::string absolute = folder.at("sites/office/here.csv");
-  const auto files = files_of("<world>\n <!-- \xC3\xBC --><walls note=\"\xC3\xBC&amp;\" file=\"../../shared/walls.csv\"/> <walls file='../shared/walls.csv'/>\n"
-                              " <x path=\"" + absolute + "\"/><y path=\"../../shared/none.csv\"/></world>");
+  const auto files = files_of(
+      "<world>\n <!-- \xC3\xBC --><walls note=\"\xC3\xBC&amp;\" file=\"../../shared/walls.csv\"/> <walls "
+      "file='../shared/walls.csv'/>\n"
+      " <x path=\"" +
+      absolute + "\"/><y path=\"../../shared/none.csv\"/></world>");
   EXPECT_THAT(names(files), ElementsAre("world/office/here.csv", "world/office/outside/2/shared/walls.csv",
                                         "world/office/outside/shared/walls.csv", "world/office/world.xml"));
   EXPECT_EQ(source(files, "world/office/outside/shared/walls.csv"), "shared/walls.csv");
   EXPECT_EQ(source(files, "world/office/outside/2/shared/walls.csv"), "sites/shared/walls.csv");
   EXPECT_EQ(files.files().at("world/office/outside/2/shared/walls.csv").named, "../shared/walls.csv");
   EXPECT_EQ(files.files().at("world/office/world.xml").text,
-            "<world>\n <!-- \xC3\xBC --><walls note=\"\xC3\xBC&amp;\" file=\"outside/shared/walls.csv\"/> <walls file='outside/2/shared/walls.csv'/>\n"
+            "<world>\n <!-- \xC3\xBC --><walls note=\"\xC3\xBC&amp;\" file=\"outside/shared/walls.csv\"/> <walls "
+            "file='outside/2/shared/walls.csv'/>\n"
             " <x path=\"here.csv\"/><y path=\"../../shared/none.csv\"/></world>");
 }
 
@@ -88,10 +92,11 @@ TEST_F(WorldFilesTest, OfPackagesKeepTheNamesOfTheirPackages) {
   folder.write("ros/arm/meshes/other.stl", "");
   folder.write("ros/arm/urdf/arm.urdf", mesh);
   for (const std::string packages : {"../../ros", "../../ros/arm"}) {
-    auto files = files_of("<world><robot packages=\"" + packages + "\" model=\"../../ros/arm/urdf/arm.urdf\"/></world>");
+    auto files =
+        files_of("<world><robot packages=\"" + packages + "\" model=\"../../ros/arm/urdf/arm.urdf\"/></world>");
     files.add_robot("../../ros/arm/urdf/arm.urdf", packages, "");
-    const std::string name = packages == "../../ros" ? "world/office/outside/ros/arm/meshes/a.stl"
-                                                     : "world/office/outside/arm/meshes/a.stl";
+    const std::string name =
+        packages == "../../ros" ? "world/office/outside/ros/arm/meshes/a.stl" : "world/office/outside/arm/meshes/a.stl";
     EXPECT_THAT(names(files), ElementsAre(name, "world/office/outside/urdf/arm.urdf", "world/office/world.xml"));
     EXPECT_EQ(source(files, name), "ros/arm/meshes/a.stl");
     const std::string to = packages == "../../ros" ? "outside/ros" : "outside/arm";
@@ -102,12 +107,14 @@ TEST_F(WorldFilesTest, OfPackagesKeepTheNamesOfTheirPackages) {
   folder.write("sites/office/arm.urdf", mesh);
   auto files = files_of("<world><robot packages=\".\" model=\"arm.urdf\"/></world>");
   files.add_robot("arm.urdf", ".", "");
-  EXPECT_THAT(names(files), ElementsAre("world/office/arm.urdf", "world/office/arm/meshes/a.stl", "world/office/world.xml"));
+  EXPECT_THAT(names(files),
+              ElementsAre("world/office/arm.urdf", "world/office/arm/meshes/a.stl", "world/office/world.xml"));
   EXPECT_FALSE(files.files().at("world/office/world.xml").text);
 }
 
 TEST_F(WorldFilesTest, OfMujocoLieInItsFolderOfMeshes) {
-  folder.write("sites/office/arm.xml", "<mujoco><compiler meshdir=\"parts\"/><asset><mesh file=\"a.stl\"/></asset></mujoco>");
+  folder.write("sites/office/arm.xml",
+               "<mujoco><compiler meshdir=\"parts\"/><asset><mesh file=\"a.stl\"/></asset></mujoco>");
   folder.write("sites/office/parts/a.stl", "");
   auto files = files_of("<world><robot model=\"arm.xml\"/></world>");
   EXPECT_THAT(names(files), ElementsAre("world/office/arm.xml", "world/office/parts/a.stl", "world/office/world.xml"));
