@@ -8,6 +8,7 @@
 #include <new>
 #include <system_error>
 
+#include "bundle_check.hpp"
 #include "declared_pages.hpp"
 #include "kernel/callback_watch.hpp"
 #include "kernel/crash_report.hpp"
@@ -31,6 +32,7 @@ constexpr Verb verbs[] = {
     {"swap", run_swap, "run a world and exchange an instance's plugin on the way"},
     {"compare", run_compare, "run a world with instances exchanged, or several worlds, and say what differs"},
     {"sweep", run_sweep, "run a plan of parameters, plugins, worlds and seeds, and say what came of it"},
+    {"bundle", run_bundle, "pack a run with all that it needs, and see whether another machine gets the same digest"},
     {"graph", run_graph, "who reads and writes what, and the order of steps"},
     {"plugins", run_plugins, "the plugins that can be loaded"},
     {"plugin-check", run_plugin_check, "hide a cause in worlds of known truth, and see whether a diagnosis finds it"},

@@ -90,13 +90,16 @@ const Storeys& storeys() {
       // Plans of many runs, and the table of them.
       {"sweep", {"text", "plotting"}},
 
+      // A run in one file.
+      {"bundle", {"text"}},
+
       // Shares no code with what it grades.
       {"exam", {}},
       // Clients of the bridge, one file each, for programs outside.
       {"bridge", {}},
       {"cli",
        {"plugin_api", "text", "loader", "world_file", "kernel", "roadmap", "plotting", "diagnosis/*", "viewer", "mcap",
-        "run_log", "live", "sweep"}},
+        "run_log", "live", "sweep", "bundle"}},
       {"python", {"plugin_api", "text", "loader", "world_file", "kernel", "plotting", "diagnosis/*"}},
   };
   return table;
