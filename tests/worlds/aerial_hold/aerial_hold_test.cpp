@@ -11,10 +11,10 @@
 namespace muster::test {
 namespace {
 
-constexpr double kp = 7.4, kd = 4.8;           // [1/s2], [1/s] the laboratory's gains on place and velocity
+constexpr double kp = 7.4, kd = 4.8;                     // [1/s2], [1/s] the laboratory's gains on place and velocity
 constexpr double seen_place = 0.001, seen_speed = 0.02;  // [m], [m/s] noise of the cameras, see the world
-constexpr double published_hold = 0.02;        // [m] mean position error, Preiss et al. 2017
-constexpr double tick = 0.01;                  // [s]
+constexpr double published_hold = 0.02;                  // [m] mean position error, Preiss et al. 2017
+constexpr double tick = 0.01;                            // [s]
 
 struct Corner {
   const char* robot;
@@ -73,8 +73,8 @@ TEST_P(AerialHold, MeanErrorIsWithinThePublishedTwoCentimetres) {
   EXPECT_LT(farthest, 0.03);
 }
 
-// Along the ground, noise on place and velocity pushes with kp n + kd m, white from tick to tick. It leaves a variance of
-// (kp n)^2 + (kd m)^2 times tick / (2 kp kd), were the robot to tilt at once. It needs 0.12 s, so somewhat more.
+// Along the ground, noise on place and velocity pushes with kp n + kd m, white from tick to tick. It leaves a variance
+// of (kp n)^2 + (kd m)^2 times tick / (2 kp kd), were the robot to tilt at once. It needs 0.12 s, so somewhat more.
 TEST(AerialHoldAlongTheGround, ScattersAsTheGainsSay) {
   double sum = 0;
   std::size_t count = 0;
@@ -96,8 +96,8 @@ TEST(AerialHoldAlongTheGround, ScattersAsTheGainsSay) {
   EXPECT_LT(scatter, 1.35 * ideal);
 }
 
-// The loop along one axis as small angles have it: the laboratory's gains, sampled every tick and held, and the attitude's
-// loop on a body that rotors of one lag tilt and drag.
+// The loop along one axis as small angles have it: the laboratory's gains, sampled every tick and held, and the
+// attitude's loop on a body that rotors of one lag tilt and drag.
 class LinearLoop {
  public:
   double x() const { return x_; }
@@ -123,8 +123,8 @@ class LinearLoop {
   double x_ = 0, v_ = 0, tilt_ = 0, rate_ = 0, turn_ = 0, sum_ = 0;
 };
 
-// The place to hold jumps by 0.3 m under quiet cameras. By the gains alone the way there is that of x'' + kd x' + kp x =
-// kp 0.3; with the robot's tilt in the loop it is the linear loop's.
+// The place to hold jumps by 0.3 m under quiet cameras. By the gains alone the way there is that of x'' + kd x' + kp x
+// = kp 0.3; with the robot's tilt in the loop it is the linear loop's.
 TEST(AerialHoldAfterAJump, GoesAsTheLaboratorysGainsSay) {
   const Folder folder;
   const auto place = folder.write("jump.csv", "x[m],y[m],z[m]\n0.3,1,1\n");

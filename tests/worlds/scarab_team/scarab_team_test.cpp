@@ -11,11 +11,11 @@
 namespace muster::test {
 namespace {
 
-constexpr double laboratory_step = 1.0 / 50;    // [s] of its simulation
-constexpr double fastest_wheel = 0.8;           // [m/s] its driver's max_wheel_vel
-constexpr double wheel_base = 0.21;             // [m] the seed's Scarab
+constexpr double laboratory_step = 1.0 / 50;                        // [s] of its simulation
+constexpr double fastest_wheel = 0.8;                               // [m/s] its driver's max_wheel_vel
+constexpr double wheel_base = 0.21;                                 // [m] the seed's Scarab
 constexpr double pulse = 3.141592653589793 * 0.1 / (2000 * 38.35);  // [m] of its encoder along the ground
-constexpr double commanded = 29.99;             // [s] 2,999 ticks begin before the command's end at 30 s
+constexpr double commanded = 29.99;  // [s] 2,999 ticks begin before the command's end at 30 s
 
 struct Task {
   const char* robot;
@@ -66,14 +66,8 @@ class Team : public Simulation {
   }
 };
 
-struct Bounds {
-  double place, yaw, odometry;  // [m], [rad], [m]
-};
-
-// The way driven is up to 21 m, with up to five turns: bounds are 0.02 % of the way, and 0.3 % for ODE's quick solver.
-Bounds bounds_of(const std::string& physics) {
-  return physics == "physics.ode" || physics == "physics.mujoco" ? Bounds{0.06, 0.06, 0.06} : Bounds{0.004, 0.002, 0.0001};
-}
+// After up to 21 m and up to five turns.
+constexpr double place_bound = 0.0002, yaw_bound = 0.0002;  // [m], [rad]
 
 class ScarabTeam : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Backends, ScarabTeam,
@@ -81,18 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, ScarabTeam,
                                                         "physics.mujoco"})),
                          [](const auto& made) { return std::string(made.param).substr(8); });
 
-TEST_P(ScarabTeam, EndsWhereTheLaboratorysSimulationEnds) {
-  Team run(GetParam());
-  while (!run.done()) run.step();
-  const Bounds bounds = bounds_of(GetParam());
-  for (const Task& task : tasks) {
-    const Place end = run.truth(task.robot), theirs = simulated_by_the_laboratory(task);
-    EXPECT_LT(between(end, theirs), bounds.place) << task.robot;
-    EXPECT_LT(turn(end.yaw, theirs.yaw), bounds.yaw) << task.robot;
-  }
-}
-
-TEST_P(ScarabTeam, ItsOdometryTellsWhereItIs) {
+TEST_P(ScarabTeam, EndsWhereItsOdometryAndTheLaboratorysSimulationSay) {
   Team run(GetParam());
   double farthest = 0;
   while (!run.done()) {
@@ -100,10 +83,16 @@ TEST_P(ScarabTeam, ItsOdometryTellsWhereItIs) {
     for (const Task& task : tasks)
       farthest = std::max(farthest, between(run.truth(task.robot), run.odometry(task.robot)));
   }
-  EXPECT_LT(farthest, bounds_of(GetParam()).odometry);
+  EXPECT_LT(farthest, place_bound);
+  for (const Task& task : tasks) {
+    const Place end = run.truth(task.robot), theirs = simulated_by_the_laboratory(task);
+    EXPECT_LT(between(end, theirs), place_bound) << task.robot;
+    EXPECT_LT(turn(end.yaw, theirs.yaw), yaw_bound) << task.robot;
+  }
 }
 
-// On the way a robot is late by the ramp that its steppers need: v / 2a seconds, and one tick for the command to arrive.
+// On the way a robot is late by the ramp that its steppers need: v / 2a seconds, and one tick for the command to
+// arrive.
 TEST(ScarabTeamOnTheWay, IsBehindTheUnicycleByItsRamp) {
   Team run("physics.simbody");
   constexpr double ramp = 2, tick = 0.01;  // [m/s2] at the rim, [s]
@@ -126,8 +115,9 @@ TEST(ScarabTeamOnTheWay, RollsOnRadiiOfSpeedOverTurnRate) {
   }
 }
 
-// The figures of the world are within the laboratory's: no wheel is asked for more than its driver lets through. And the
-// odometry errs by less than ten pulses of its encoder, so that a model of the encoder would change nothing that is told.
+// The figures of the world are within the laboratory's: no wheel is asked for more than its driver lets through. And
+// the odometry errs by less than ten pulses of its encoder, so that a model of the encoder would change nothing that is
+// told.
 TEST(ScarabTeamOnTheWay, StaysWithinTheLaboratorysDriver) {
   Team run("physics.simbody");
   double fastest = 0, farthest = 0;
