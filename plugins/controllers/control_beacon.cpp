@@ -1,7 +1,7 @@
 // A radio that sends a beacon periodically.
 #include <muster/plugin.hpp>
 
-#include "own_radio.hpp"
+#include "plugins/own_radio.hpp"
 #include "plugins/periods.hpp"
 
 namespace {

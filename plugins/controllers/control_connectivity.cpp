@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "own_radio.hpp"
+#include "plugins/own_radio.hpp"
 #include "plugins/periods.hpp"
 #include "roadmap.hpp"
 #include "switching.hpp"

@@ -1,7 +1,7 @@
 // Drives to a goal pose from another controller: Player's position commands.
 #include <muster/plugin.hpp>
 
-#include "heading.hpp"
+#include "plugins/heading.hpp"
 
 namespace {
 

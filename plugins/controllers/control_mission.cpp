@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <muster/plugin.hpp>
 
-#include "heading.hpp"
 #include "mission_doubts.hpp"
 #include "mission_elements.hpp"
 #include "mission_program.hpp"
-#include "own_radio.hpp"
+#include "plugins/heading.hpp"
+#include "plugins/own_radio.hpp"
 #include "plugins/periods.hpp"
 #include "switching.hpp"
 

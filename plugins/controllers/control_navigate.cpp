@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "description/world_robots.hpp"
-#include "heading.hpp"
+#include "plugins/heading.hpp"
 #include "plugins/periods.hpp"
 #include "roadmap.hpp"
 #include "roadmap/route.hpp"

@@ -4,7 +4,7 @@
 #include <muster/ground_drives.hpp>
 #include <muster/plugin.hpp>
 
-#include "heading.hpp"
+#include "plugins/heading.hpp"
 #include "roadmap.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 // Drives from way point to way point by a robot's own odometry.
 #include <muster/plugin.hpp>
 
-#include "heading.hpp"
+#include "plugins/heading.hpp"
 #include "roadmap.hpp"
 
 namespace {
