@@ -23,7 +23,7 @@ struct Options {
   std::vector<InstanceDeclaration> more;  // instances beyond those of the world file, before its own
   std::shared_ptr<TableCache> tables{};   // files that were read already; none: the simulation reads its own
   std::vector<std::shared_ptr<Library>> libraries{};  // shared from the start on, as by share()
-  bool costs = false;  // measures Instance::cost; takes some 0.3 us a step
+  bool costs = false;                                 // measures Instance::cost; takes some 0.3 us a step
 };
 
 struct Event {

@@ -140,7 +140,6 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
             "--lambda, "
             "--mix, --out, --rows, --seed, --size, --style, --walls\n");
   EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 2);
-
 }
 
 }  // namespace
