@@ -15,7 +15,8 @@ struct Limits {
   std::uint64_t bytes = std::uint64_t{2} << 30;  // of all
 };
 
-// Why the name of a file is not taken: empty where it is. "a/b.csv" is; "../b", "/b", "a//b", "a/./b", "" are not.
+// Why the name of a file is not taken: empty where it is. It is taken where it is a path from the folder down, each
+// part of it a plain name.
 std::string fault_of_name(const std::string& name);
 
 // Writes the files of the folder by these names, in this order. `file` must not be there; it is whole or not at all.

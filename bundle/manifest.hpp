@@ -14,7 +14,7 @@ namespace muster::bundle {
 inline constexpr const char manifest_name[] = "bundle.json";
 
 struct ListedFile {
-  std::string name;  // in the bundle: "world/office/walls.csv"
+  std::string name;  // its path in the bundle
   std::uint64_t bytes = 0;
   std::string sha256;
   std::string named;  // as the world's author wrote it, where the bundle's copy says something else; or ""
@@ -22,7 +22,7 @@ struct ListedFile {
 
 struct ListedPlugin {
   std::string id;    // "radio.multiwall/1"
-  std::string file;  // "plugins/radio_multiwall.so"
+  std::string file;  // its name in the bundle
 };
 
 // The state after so many ticks: the run's digest, and one of each table, as hexadecimal digits.
@@ -36,7 +36,7 @@ struct Manifest {
   std::string date;    // "2026-11-27T04:17:22Z"
   std::string muster;  // its version
   Machine machine;
-  std::string world;  // its file in the bundle: "world/office/world.xml"
+  std::string world;  // its file in the bundle
   std::uint64_t seed = 0, ticks = 0;
   double dt = 0;
   std::vector<std::string> set;  // "PATH=VALUE", as --set takes it

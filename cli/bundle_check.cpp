@@ -84,7 +84,7 @@ std::vector<Difference> differences_of_machines(const bundle::Manifest& manifest
   return result;
 }
 
-// The first of that path below the folders of plugins: "radio_multiwall.so", "models/scarab.urdf".
+// The first of that path below the folders of plugins, a library or a model.
 fs::path among_plugins(const std::string& name, const Library::SearchPath& plugins) {
   for (const fs::path& folder : plugins)
     if (fs::is_regular_file(folder / name)) return folder / name;
