@@ -162,7 +162,7 @@ TEST(Fault25, AWildStampIsLeftOutOfTime) {
       EXPECT_EQ(found.exit, 0) << found.err;
       EXPECT_THAT(found.out,
                   HasSubstr("row " + std::to_string(row) + ": t = 4e+09 s lies far outside all other times"));
-      EXPECT_LT(found.peak_kilobytes, 400'000);
+      EXPECT_TRUE(sanitized || found.peak_kilobytes < 400'000) << found.peak_kilobytes;
     }
   }
 }
@@ -174,7 +174,7 @@ TEST(Fault25, SessionsAYearApartFitIntoMemory) {
   for (const char* verb : {"fit", "diagnose"}) {
     const Outcome found = asked(verb, data.text());
     EXPECT_EQ(found.exit, 0) << found.err;
-    EXPECT_LT(found.peak_kilobytes, 400'000);
+    EXPECT_TRUE(sanitized || found.peak_kilobytes < 400'000) << found.peak_kilobytes;
   }
 }
 
