@@ -240,8 +240,9 @@ std::string unknown_parameter(const std::string& path, const std::vector<Paramet
     return what + owner + " is the plugin of " + quote(owner_by_plugin) + "; did you mean " +
            quote(owner_by_plugin + '/' + name) + "?";
   if (own.empty()) return what + suggest(path, valid);
-  const std::string question = meant.size() == 1 ? "; did you mean " + quote(meant[0]) + "?" : did_you_mean(name, own);
-  return what + quote(owner) + " has " + listed(own) + question;
+  const std::string near = meant.size() == 1 ? meant[0] : nearest(name, own);
+  for (std::string& each : own) each = owner + '/' + each;
+  return what + expected_one_of(own) + (near.empty() ? "" : "; did you mean " + quote(owner + '/' + near) + "?");
 }
 
 }  // namespace

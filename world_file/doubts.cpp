@@ -53,7 +53,7 @@ class Doubts {
 
   void look() {
     look_at_tick();
-    look_at_walls();
+    look_at_spans();
     for (const auto& child : root_.children) {
       if (child.name == "door") look_at_door(child);
       if (child.name == "station") look_at_station(child);
@@ -78,7 +78,7 @@ class Doubts {
                                 " s; expected some 0.01 to 0.1 s; are these milliseconds?");
   }
 
-  void look_at_walls() {
+  void look_at_spans() {
     using Key = std::tuple<double, double, double, double, double, double>;
     std::map<Key, const RowDeclaration*> first;
     for (const Shape& wall : walls_) {

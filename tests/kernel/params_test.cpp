@@ -30,8 +30,8 @@ TEST_F(Params, ValuesAreHeldAgainstTheDeclaration) {
   EXPECT_EQ(set("f/tick", 2.5), "parameter \"f/tick\": 2.5 is no integer; expected an integer from 0 to 1000");
   EXPECT_EQ(set("n/robot", 1), "parameter \"n/robot\": a reference is claimed for good; expected a swap");
   EXPECT_EQ(set("n/ad", 1),
-            "there is no parameter \"n/ad\"; expected one of n/as, n/flags, n/read_flags, n/own, n/add, n/times, "
-            "f/fault, f/tick; did you mean \"n/as\"?");
+            "there is no parameter \"n/ad\"; expected one of n/as, n/flags, n/read_flags, n/own, n/add, n/times; "
+            "did you mean \"n/as\"?");
   EXPECT_EQ(sim.parameter("n/add").value, 0);
 }
 

@@ -14,7 +14,10 @@ TEST(SweepRefusals, TellThePlaceInTheFile) {
       {"<sweep world=\"wurld.xml\" seeds=\"1\"/>",
        "plan.xml:1:15: \"wurld.xml\" is not there; expected a world's folder or file, from the folder of plan.xml"},
       {head + "<vary set=\"radio.multiwall/tx_powr\" values=\"1\"/></sweep>",
-       "plan.xml:2:12: there is no parameter \"radio.multiwall/tx_powr\"; did you mean \"radio.multiwall/tx_power\"? "},
+       "plan.xml:2:12: there is no parameter \"radio.multiwall/tx_powr\"; expected one of "
+       "radio.multiwall/tx_power, radio.multiwall/l0, radio.multiwall/n, radio.multiwall/model, "
+       "radio.multiwall/radius; did "
+       "you mean \"radio.multiwall/tx_power\"?"},
       {head + "<vary set=\"radio.multiwall/n\" values=\"2 x\"/></sweep>", "plan.xml:2:41: "},
       {head + "<vary set=\"radio.multiwall/n\" values=\"2 -3\"/></sweep>", "plan.xml:2:41: "},
       {head + "<vary set=\"seed\" values=\"2\"/></sweep>",

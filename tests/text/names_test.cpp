@@ -54,7 +54,7 @@ TEST(Names, FindsANameByItsBeginningBeforeANearerOne) {
   EXPECT_EQ(did_you_mean("robot/*/odom", {"robot/*/body", "robot/*/odometry"}),
             R"(; did you mean "robot/*/odometry"?)");
   EXPECT_EQ(did_you_mean("robot/*/od", {"robot/*/body", "robot/*/odometry"}), R"(; did you mean "robot/*/body"?)");
-  EXPECT_EQ(did_you_mean("radio.multi", {"radio.multiwall/n"}), R"()");  // that of a whole name, not of its path
+  EXPECT_EQ(did_you_mean("radio.mult", {"radio.multiwall/none"}), R"()");  // that of a whole name, not of its path
 }
 
 TEST(Names, FindsANameByItsEnd) {

@@ -62,8 +62,8 @@ TEST(CommandWords, ByThePluginInPlaceOfTheInstance) {
 TEST(CommandWords, AParameterByItsMeaning) {
   EXPECT_THAT(
       said_beside_a_channel({"run", "lab", "--set", "channel/exponent=3"}),
-      HasSubstr("there is no parameter \"channel/exponent\"; \"channel\" has tx_power, l0, n, model, radius; did "
-                "you mean \"n\"?"));
+      HasSubstr("there is no parameter \"channel/exponent\"; expected one of channel/tx_power, channel/l0, channel/n, "
+                "channel/model, channel/radius; did you mean \"channel/n\"?"));
   EXPECT_THAT(
       said_beside_a_channel({"run", "lab", "--set", "channel=3"}),
       HasSubstr("there is no parameter \"channel\"; it has several: expected one of channel/tx_power, channel/l0"));

@@ -156,8 +156,10 @@ TEST(Fault7, TimesOutsideOfTheRunAreRefused) {
   swap_at("-1", "--at: -1 s is before the start; expected a time from 0");
   swap_at("1", "--at: 1 s is at the end of the run or after it; expected less than 1 s");
   ASSERT_EQ(folder.muster({"run", "world.xml", "--save", "end.snap", "--plugins", MUSTER_TOYS}).exit, 0);
-  refused({"run", "world.xml", "--until", "0.5", "--restore", "end.snap"},
-          "--restore: end.snap stands at 1 s, after the end of the run at 0.5 s");
+  refused(
+      {"run", "world.xml", "--until", "0.5", "--restore", "end.snap"},
+      "--restore: end.snap stands at 1 s, after the end of the run at 0.5 s; expected --until above 1: it is a time of "
+      "the world, not a duration");
 }
 
 TEST(Restored, WhatTheFileSaysNowAndTheSnapshotDoesNotIsTold) {
