@@ -85,6 +85,17 @@ struct SensorsLaser {
       const auto* robot = robots.of(static_cast<double>(row));
       if (robot) solids.emplace(robot, solids_of(*robot));
     }
+    warn_of_none(s);
+  }
+
+  // Robots are there, and none of them has a laser.
+  void warn_of_none(const Setup& s) const {
+    bool has_laser = robots.size() == 0;
+    for (const auto& [robot, shapes] : solids) has_laser |= !robot->sensors.empty();
+    if (!has_laser)
+      s.warn("self",
+             "no robot's model has a laser, so that scan/*/message stays empty; expected a model with one, such as "
+             "scarab, or a file of fittings with <sensor>");
   }
 
   void step(const Step& k) const {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -36,6 +37,19 @@ std::string two_lasers(const Folder& folder) {
 }
 
 const std::string still = "<material name=\"brick\" loss=\"6\"/><physics.planar/><sensors.laser/>";
+
+TEST(Laser, SaysThatNobodyHasOne) {
+  const auto warnings = [](const std::string& model) {
+    Folder folder;
+    const Simulation run = world_of(folder, still + "<robot name=\"r\" model=\"" + model + "\" at=\"0 0 0\"/>");
+    return std::count_if(run.events().begin(), run.events().end(), [](const Event& event) {
+      return event.message.find("no robot's model has a laser, so that scan/*/message stays empty") !=
+             std::string::npos;
+    });
+  };
+  EXPECT_EQ(warnings("husky"), 1);
+  EXPECT_EQ(warnings("scarab"), 0);
+}
 
 TEST(Laser, RangesToAWallAreThoseOfPlaneGeometry) {
   Folder folder;
