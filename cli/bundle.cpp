@@ -15,6 +15,7 @@
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/temporary_folder.hpp"
+#include "verbs.hpp"
 
 namespace muster::cli {
 namespace {

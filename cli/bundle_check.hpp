@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "command_line.hpp"
 #include "text/error.hpp"
 
 namespace muster::cli {
@@ -17,7 +16,6 @@ struct BundleCheckWords {
   bool own_plugins = true, json = false;
 };
 
-int run_bundle(const Arguments& arguments);
 // Throws Error.
 Exit check_bundle(const BundleCheckWords& words);
 

@@ -8,7 +8,6 @@
 #include <new>
 #include <system_error>
 
-#include "bundle_check.hpp"
 #include "declared_pages.hpp"
 #include "kernel/callback_watch.hpp"
 #include "kernel/crash_report.hpp"

@@ -13,6 +13,7 @@
 
 namespace muster::cli {
 
+int run_bundle(const Arguments& arguments);
 int run_check(const Arguments& arguments);
 int run_compare(const Arguments& arguments);
 int run_describe(const Arguments& arguments);
