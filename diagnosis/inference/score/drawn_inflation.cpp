@@ -31,8 +31,9 @@ noise::Family with_share_of(noise::Family other, noise::Family family) {
 
 }  // namespace
 
-double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate) {
-  const Eigen::MatrixXd& drawn = state.drawn();
+double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate,
+                       const noise::StatedField& field) {
+  const Eigen::MatrixXd& drawn = state.drawn(field);
   if (drawn.cols() == 0) return 1;
   Eigen::MatrixXd white = model.at.basis.rest(model.whitener(drawn));
   // The field's own size is fitted in every data set anew.
@@ -56,11 +57,10 @@ double drawn_inflation(const ModelState& state, const WhitenedModel& model, cons
   return usual > 0 ? std::max(1.0, static_cast<double>(highest(white.cast<float>()) / usual)) : 1;
 }
 
-bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design) {
+bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field) {
   const noise::Covariance& fitted = state.fit.covariance;
-  if (!state.field().sites().stated || state.drawn().cols() == 0) return false;
+  if (!state.field().sites().stated || state.drawn(field).cols() == 0) return false;
   const auto as = [&](noise::Family family) {
-    const auto field = noise::stated_by(fitted, state.within());
     return noise::as_stated(field, with_share_of(fitted.family, family), fitted.theta, state.within());
   };
   const noise::Covariance place = noise::is_stated(fitted.family) ? as(noise::Family::exponential) : fitted,
@@ -74,7 +74,7 @@ bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design) {
   };
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (Index k = 0; k < thresholds::compared_draws; ++k) {
-    const double of_draw = apart(state.drawn().col(k));
+    const double of_draw = apart(state.drawn(field).col(k));
     least = std::min(least, of_draw), most = std::max(most, of_draw);
   }
   return apart(state.y()) <= most + (most - least);

@@ -8,14 +8,15 @@
 namespace muster::inference {
 
 // Factor by which the candidate's highest gain over its grid in draws of the model exceeds that in white noise: median
-// over median; at least 1, and 1 where the model draws nothing. `model`: a whitened one, at the field of the draws.
-double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate);
+// over median; at least 1, and 1 where the model draws nothing. `field`: that of the draws.
+double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate,
+                       const noise::StatedField& field);
 
 // True unless the rows, fitted by `design`, are farther from the correlation that the model states than its own draws
 // are: by the likelihood ratio of the fitted family, or else the exponential one, to the stated one, beyond the range
 // of its values in draws by as much as that range (a parametric bootstrap: Davison and Hinkley, Bootstrap Methods and
 // their Application, 1997, 4.4). Of other data the inflation in draws says nothing, and would hide what is there. False
 // where the model states no correlation, or draws nothing.
-bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design);
+bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field);
 
 }  // namespace muster::inference

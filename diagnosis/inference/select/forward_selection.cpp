@@ -132,7 +132,10 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   const Eigen::MatrixXd both = noise::hstack(design, lead.columns);
   if (log_p <= state.threshold())
     inflate(bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns));
-  if (log_p <= state.threshold() && resembles_draws(state, both)) inflate(drawn_inflation(state, model, c));
+  for (const noise::StatedField& field : state.drawable()) {
+    if (log_p <= state.threshold() && resembles_draws(state, both, field))
+      inflate(drawn_inflation(state, model, c, field));
+  }
   if (log_p <= state.threshold() && noise_decides) {
     const double decided = state.threshold() - skew;
     log_p = std::max(log_p, skew + marginal_log_p_elsewhere(state, fit, design, lead.columns, tests, decided));

@@ -24,6 +24,12 @@ noise::Sheet normals_of(Index rows, int count, uint64_t seed) {
   return result;
 }
 
+// True if draws with one field serve for the other.
+bool alike(const noise::StatedField& one, const noise::StatedField& other) {
+  const auto close = [](double a, double b) { return std::abs(std::log(a / b)) < thresholds::same_field; };
+  return close(one.shadowing, other.shadowing) && close(one.decorrelation, other.decorrelation);
+}
+
 // Adapts a tally of split rows to the problem's rows.
 class OfOrigin : public Tally {
  public:
@@ -185,18 +191,19 @@ std::vector<noise::Family> ModelState::likely_families(noise::Family first) cons
   return result;
 }
 
-const Eigen::MatrixXd& ModelState::drawn() const {
-  const noise::StatedField field = noise::stated_by(fit.covariance, within());
-  const auto moved = [](double now, double then) { return !(std::abs(std::log(now / then)) < thresholds::same_field); };
-  if (problem_.drawn &&
-      (moved(field.shadowing, drawn_with_.shadowing) || moved(field.decorrelation, drawn_with_.decorrelation))) {
-    drawn_ = problem_.drawn(field, thresholds::model_draws);
-    drawn_with_ = field;
-    drawn_rows_.resize(0, 0);
-  }
-  if (drawn_rows_.rows() != rows_.size())
-    drawn_rows_ = drawn_.size() ? rows_.mean(drawn_) : Eigen::MatrixXd(rows_.size(), 0);
-  return drawn_rows_;
+std::vector<noise::StatedField> ModelState::drawable() const {
+  const noise::StatedField fitted = noise::stated_by(fit.covariance, within());
+  if (problem_.stated.shadowing <= 0) return {fitted};
+  if (alike(problem_.stated, fitted)) return {problem_.stated};
+  return {problem_.stated, fitted};
+}
+
+const Eigen::MatrixXd& ModelState::drawn(const noise::StatedField& field) const {
+  Drawn& kept = alike(problem_.stated, field) ? of_stated_ : of_fitted_;
+  if (problem_.drawn && !alike(kept.field, field)) kept = {field, problem_.drawn(field, thresholds::model_draws), {}};
+  if (kept.rows.rows() != rows_.size())
+    kept.rows = kept.readings.size() ? rows_.mean(kept.readings) : Eigen::MatrixXd(rows_.size(), 0);
+  return kept.rows;
 }
 
 const LongRangeRows& ModelState::far() const {

@@ -71,9 +71,12 @@ class ModelState {
   const LongRangeRows& far() const;
   // Standard normal residuals, one set a column: the null of everything whitened.
   const noise::Sheet& normals() const { return normals_; }
-  // Errors of the rows in draws of the model itself, with about the fitted field; no columns if it draws none. Kept
-  // until the field has changed.
-  const Eigen::MatrixXd& drawn() const;
+  // The fields that the errors may be draws of, by the model itself: the stated one, and the fitted one where it is
+  // another.
+  std::vector<noise::StatedField> drawable() const;
+  // Errors of the rows in draws of the model itself, with about such a field; no columns if it draws none. Kept, those
+  // of a fitted field until it has changed.
+  const Eigen::MatrixXd& drawn(const noise::StatedField& field) const;
   double log_rows() const { return std::log(static_cast<double>(rows_.size())); }
 
   noise::Fit fit;                    // noise beside the design
@@ -135,9 +138,11 @@ class ModelState {
   std::vector<Entry> entries_;
   std::size_t fixed_ = 0;  // entries before those that depend on the model
   noise::Sheet normals_;
-  mutable Eigen::MatrixXd drawn_;  // of readings
-  mutable noise::StatedField drawn_with_;
-  mutable Eigen::MatrixXd drawn_rows_;
+  struct Drawn {
+    noise::StatedField field;
+    Eigen::MatrixXd readings, rows;  // one column a draw
+  };
+  mutable Drawn of_stated_, of_fitted_;
   std::map<std::string, double> log_effective_tests_;
 };
 

@@ -42,7 +42,7 @@ double inflation_in(uint64_t seed, const Draws& draws) {
   for (const Entry& entry : at.entries()) {
     if (entry.count() > most) most = entry.count(), widest = entry.candidate.get();
   }
-  return drawn_inflation(at, at.whitened_model(at.base()), *widest);
+  return drawn_inflation(at, at.whitened_model(at.base()), *widest, at.drawable().back());
 }
 
 MatrixXd of_the_covariance(const ModelState& state, Index count) {
@@ -87,7 +87,27 @@ TEST(DrawnInflation, IsOneWhereTheModelDrawsNothing) {
   const auto causes = causes_of(world);
   const Problem problem = problem_of(world, VectorXd::Zero(world.rssi.size()), causes);
   const ModelState state(problem, {});
-  EXPECT_EQ(drawn_inflation(state, state.whitened_model(state.base()), *state.entries()[0].candidate), 1);
+  EXPECT_EQ(drawn_inflation(state, state.whitened_model(state.base()), *state.entries()[0].candidate, {4, 1.8}), 1);
+}
+
+// A covariance that fits may be far from that of the draws: what the world states is asked first.
+TEST(DrawnInflation, AsksForTheStatedFieldAndTheFittedOneOnceEach) {
+  const auto world = world_of(varied(1, 1200));
+  Problem problem = problem_of(world, VectorXd::Zero(world.rssi.size()), causes_of(world));
+  problem.stated = {40, 0.1};
+  std::vector<double> asked;
+  problem.drawn = [&](const noise::StatedField& field, Index count) {
+    asked.push_back(field.shadowing);
+    return MatrixXd::Constant(world.rssi.size(), count, field.shadowing).eval();
+  };
+  const ModelState state(problem, {});
+  const std::vector<noise::StatedField> fields = state.drawable();
+  ASSERT_EQ(fields.size(), 2u);
+  EXPECT_EQ(fields[0].shadowing, 40);
+  for (int again = 0; again < 2; ++again) {
+    for (const auto& field : fields) EXPECT_EQ(state.drawn(field)(0, 0), field.shadowing);
+  }
+  EXPECT_EQ(asked, (std::vector{40, fields[1].shadowing}));
 }
 
 // Smooth, and the same for all groups but for a share: unlike the field of the synthetic worlds.
@@ -131,10 +151,10 @@ TEST(ResemblesDraws, DataOfTheStatedFieldDoAndThoseOfAnotherDoNot) {
         world.readings, diagnosis::LinkRowLimits{}, std::vector<int>{}, true, std::make_shared<Smooth>());
     problem.drawn = [&](const noise::StatedField&, Index count) { return of_the_stated_field(problem, count, 40); };
     const ModelState of_another(problem, {});
-    EXPECT_FALSE(resembles_draws(of_another, of_another.base())) << seed;
+    EXPECT_FALSE(resembles_draws(of_another, of_another.base(), of_another.drawable().back())) << seed;
     problem.measured = of_the_stated_field(problem, 1, 50 + seed).col(0);
     const ModelState of_its_own(problem, {});
-    own += resembles_draws(of_its_own, of_its_own.base());
+    own += resembles_draws(of_its_own, of_its_own.base(), of_its_own.drawable().back());
   }
   EXPECT_GE(own, 3);
 }
