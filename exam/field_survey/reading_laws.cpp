@@ -1,6 +1,7 @@
 #include "exam/field_survey/reading_laws.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 namespace muster::exam::survey {
@@ -25,6 +26,37 @@ double divergence(double freedom) {
   for (double x = -reach + step / 2; x < reach; x += step) {
     const double p = log_student(x, freedom);
     sum += std::exp(p) * (p - log_normal(x, 0, 1)) * step;
+  }
+  return sum;
+}
+
+// The same for so many readings of a place, of sd 1, with a level in common that is known to this sd: by simulation.
+double divergence(double freedom, double level, int readings) {
+  constexpr int draws_each = 20000, points = 120;
+  Draws draws(1, "tails");
+  const Scatter scatter{.reading = 1, .freedom = freedom};
+  const double n = readings, shrunk = level * level / (1 + n * level * level);
+  double sum = 0;
+  std::vector<double> x(static_cast<std::size_t>(readings));
+  for (int k = 0; k < draws_each; ++k) {
+    const double at = level * draws.gauss();
+    double total = 0, squares = 0;
+    for (double& one : x) {
+      one = at + draw_error(scatter, draws);
+      total += one, squares += one * one;
+    }
+    double heavy = 0;
+    const double step = 12 * level / points;
+    for (int i = 0; i < points; ++i) {
+      const double mean = step * (i + 0.5) - 6 * level;
+      double p = log_normal(mean, 0, level);
+      for (const double one : x) p += log_student(one - mean, freedom);
+      heavy += step * std::exp(p);
+    }
+    // Woodbury's identity for the covariance 1 + level^2, all with all.
+    const double light = -(squares - shrunk * total * total) / 2 - std::log1p(n * level * level) / 2 -
+                         n * std::log(2 * std::numbers::pi) / 2;
+    sum += (std::log(heavy) - light) / draws_each;
   }
   return sum;
 }
@@ -113,18 +145,24 @@ double law_lambda(const Campaign& campaign, const Scene& truth, const std::strin
     for (const Passers& p : truth.passers) sum += people_lambda(campaign, truth, p, used);
     return sum;
   }
-  // What is frozen at a place hides the law of its first reading.
-  int cells = 0, readings = 0;
-  std::vector<char> seen(campaign.rows.size(), 0);
-  for (std::size_t i = 0; i < campaign.rows.size(); ++i) {
-    if (!used[i]) continue;
-    ++readings;
-    char& cell = seen[static_cast<std::size_t>(campaign.rows[i].cell)];
-    cells += !cell;
-    cell = 1;
+  const Scatter& s = truth.scatter;
+  const double level = std::sqrt(s.frozen * s.frozen + s.shadowing * s.shadowing) / s.reading;
+  std::map<int, int> readings;  // of a cell
+  for (std::size_t i = 0; i < campaign.rows.size(); ++i) readings[campaign.rows[i].cell] += used[i] ? 1 : 0;
+  const double alone = divergence(s.freedom);
+  constexpr int enough = 6;  // readings that tell their level
+  std::map<int, double> known;
+  double sum = 0;
+  for (const auto& [cell, n] : readings) {
+    if (level == 0 || n == 0) {
+      sum += 2 * n * alone;
+      continue;
+    }
+    const auto [at, first] = known.try_emplace(std::min(n, enough), 0);
+    if (first) at->second = divergence(s.freedom, level, at->first);
+    sum += 2 * (at->second + std::max(0, n - enough) * alone);
   }
-  const bool hidden = truth.scatter.frozen > 0 || truth.scatter.shadowing > 0;
-  return 2 * divergence(truth.scatter.freedom) * (hidden ? readings - cells : readings);
+  return sum;
 }
 
 double missing_lambda(const Scene& truth, const std::string& effect, const Made& made) {

@@ -12,8 +12,9 @@ double draw_error(const Scatter& scatter, Draws& draws);
 std::vector<double> blockage(const Campaign& campaign, const Scene& truth, Draws& draws);
 
 // 2 x the log-likelihood ratio of an effect on the law of readings, given their means: of `outliers` the
-// Kullback-Leibler divergence from the Gaussian of the same variance; of `people` a hidden Markov chain of two states
-// against one Gaussian with the mean and variance of the readings, averaged over simulated campaigns.
+// Kullback-Leibler divergence from the Gaussian of the same variance, readings of a place together, whose level is not
+// known; of `people` a hidden Markov chain of two states against one Gaussian with the mean and variance of the
+// readings, averaged over simulated campaigns.
 double law_lambda(const Campaign& campaign, const Scene& truth, const std::string& effect,
                   const std::vector<char>& used);
 

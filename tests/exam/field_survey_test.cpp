@@ -214,6 +214,35 @@ TEST(FieldSurvey, HeavyTailsAreWorthWhatSimulationGives) {
   EXPECT_NEAR(tails->lambda / static_cast<double>(made.rssi.size()), 2 * mean, 0.15 * 2 * mean);
 }
 
+// Two readings at a place whose level is known to 2 dB: the ratio of their joint densities, by simulation.
+TEST(FieldSurvey, HeavyTailsAreWorthLessWhereALevelIsFixedAtAPlace) {
+  Scene truth;
+  truth.scatter.reading = 1, truth.scatter.frozen = 2, truth.scatter.freedom = 3;
+  Campaign campaign;
+  campaign.rows.resize(2);
+  const double lambda = law_lambda(campaign, truth, "outliers", {1, 1});
+  Draws draws(6, "tails of two");
+  const auto normal = [](double x, double sd) {
+    return std::exp(-x * x / (2 * sd * sd)) / (sd * std::sqrt(2 * std::numbers::pi));
+  };
+  const auto student = [](double x) { return 2 / std::numbers::pi / std::pow(1 + x * x, 2); };  // of sd 1
+  double mean = 0;
+  constexpr int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    const double level = 2 * draws.gauss(), a = level + draw_error(truth.scatter, draws),
+                 b = level + draw_error(truth.scatter, draws);
+    double heavy = 0;
+    constexpr double step = 0.1;
+    for (double at = -12; at < 12; at += step) heavy += step * normal(at, 2) * student(a - at) * student(b - at);
+    // Of sum and difference, which are independent.
+    const double light = 2 * normal(a + b, std::sqrt(18.0)) * normal(a - b, std::sqrt(2.0));
+    mean += 2 * std::log(heavy / light) / count;
+  }
+  EXPECT_NEAR(lambda, mean, 0.25 * mean);
+  truth.scatter.frozen = 0;
+  EXPECT_GT(law_lambda(campaign, truth, "outliers", {1, 1}), 2 * lambda);
+}
+
 TEST(FieldSurvey, TablesHaveTheColumnsOfTheirHabits) {
   std::set<std::string> starts;
   for (int number = 1; number <= 40; ++number) {

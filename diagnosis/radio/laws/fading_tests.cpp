@@ -269,7 +269,7 @@ LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::sh
         std::count_if(families.begin(), families.end(), [&](const LawFamily& f) { return f.cause() == test.cause; }));
     test.gain = gain;
     test.log_p = std::log(forms) + inference::log_tail(gain / wider(*best.at(test.cause).first->part.law), 1);
-    test.evidence = gain / 2 - std::log(static_cast<double>(field.size())) / 2 - std::log(forms);
+    test.evidence = gain / 2 - std::log(static_cast<double>(field.judged().size())) / 2 - std::log(forms);
   };
   // Where no law is stated, any that could replace it belongs to the null.
   double of_null = 0;

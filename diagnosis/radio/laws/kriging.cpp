@@ -58,6 +58,19 @@ std::vector<Index> cells_of(const noise::Sites& sites, double side) {
   return result;
 }
 
+// Readings that repeat an earlier one of their site, or of one stream there; all of them where nothing is fixed.
+std::vector<Index> repeats_of(const noise::RecurringSites& recurring, Index size, noise::Family fitted) {
+  const auto least = noise::fixed_to_stream(fitted) ? noise::Relation::stream : noise::Relation::site;
+  std::vector<Index> result;
+  for (Index i = 0; i < size; ++i) {
+    const std::vector<Index>& alike = recurring.rows_with(i);
+    if (noise::fixed_share(fitted) == 0 ||
+        std::any_of(alike.begin(), alike.end(), [&](Index j) { return j < i && recurring.of(i, j) >= least; }))
+      result.push_back(i);
+  }
+  return result;
+}
+
 // y = value + slope x by least squares; unknown if x hardly varies.
 struct Intercept {
   bool known = false;
@@ -80,14 +93,30 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 }  // namespace
 
 KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual,
-                               std::shared_ptr<const noise::StatedCorrelation> stated)
-    : residual_(residual(finite_of(residual))),
-      field_(sites_of(those(readings, finite_of(residual)), std::move(stated)), conditioning) {}
+                               std::shared_ptr<const noise::StatedCorrelation> stated, noise::Family fitted)
+    : KrigedReadings(residual(finite_of(residual)),
+                     noise::Field(sites_of(those(readings, finite_of(residual)), std::move(stated)), conditioning),
+                     fitted, 4) {}
 
-KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, double far_off)
-    : residual_(std::move(residual)), field_(std::move(field)), far_off_(far_off) {}
+KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, noise::Family fitted, double far_off)
+    : residual_(std::move(residual)),
+      field_(std::move(field)),
+      fitted_(fitted),
+      judged_(repeats_of(field_.recurring(), residual_.size(), fitted)),
+      far_off_(far_off) {}
 
-KrigedReadings KrigedReadings::untamed() const { return {residual_, field_, std::numeric_limits<double>::infinity()}; }
+KrigedReadings KrigedReadings::untamed() const {
+  return {residual_, field_, fitted_, std::numeric_limits<double>::infinity()};
+}
+
+std::vector<noise::Family> KrigedReadings::families() const {
+  if (noise::fixed_share(fitted_) == 0) return field_.families();
+  std::vector<noise::Family> result{fitted_};
+  for (const noise::Family next : {noise::with_less_fixed(fitted_), noise::with_more_fixed(fitted_)}) {
+    if (next != fitted_) result.push_back(next);
+  }
+  return result;
+}
 
 KrigedReadings KrigedReadings::some(Index about) const {
   constexpr Index whole = 100;  // mean readings a cell: more than a neighbourhood
@@ -101,7 +130,7 @@ KrigedReadings KrigedReadings::some(Index about) const {
   for (Index i = 0; i < size(); ++i) {
     if (cells[static_cast<std::size_t>(i)] % every == 0) chosen.push_back(i);
   }
-  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), far_off_};
+  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), fitted_, far_off_};
 }
 
 const ReadingView& KrigedReadings::view(const FieldShape& shape, int place) {

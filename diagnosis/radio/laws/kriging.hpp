@@ -5,6 +5,7 @@
 #include <compare>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/radio/links/link_rows.hpp"
@@ -33,11 +34,14 @@ struct CloseReadings {
   double variance = 0, standard_error = 0;  // dB^2; 0 and infinite without enough distances or pairs
 };
 
+// Where readings of a site share a part that is fixed there, laws are judged by the readings that repeat another one:
+// the first has that part, whose own law is another.
 class KrigedReadings {
  public:
-  // One residual a reading; non-finite ones are left out.
+  // One residual a reading; non-finite ones are left out. `fitted`: of the rows; with a fixed share, readings have one.
   KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual,
-                 std::shared_ptr<const noise::StatedCorrelation> stated = nullptr);
+                 std::shared_ptr<const noise::StatedCorrelation> stated = nullptr,
+                 noise::Family fitted = noise::Family::exponential);
   // Without winsorising. An outlier then affects its neighbours' predictions. Without outliers the errors have known
   // variance, while winsorised ones vary less than under a law with rare deep fades.
   KrigedReadings untamed() const;
@@ -46,22 +50,27 @@ class KrigedReadings {
   KrigedReadings some(Eigen::Index about) const;
 
   Eigen::Index size() const { return residual_.size(); }
+  // Those by which a law is judged.
+  const std::vector<Eigen::Index>& judged() const { return judged_; }
   // Standard deviations beyond which an error enters predictions winsorised; infinite: none does.
   double far_off() const { return far_off_; }
   // `place`: 1000 log_ratio. Computed once, then cached.
   const ReadingView& view(const FieldShape& shape, int place);
   const Eigen::VectorXd& residual() const { return residual_; }
-  std::vector<noise::Family> families() const { return field_.families(); }
+  // Of the field; with a fixed share, the fitted one and those with the next shares.
+  std::vector<noise::Family> families() const;
   // Uses each reading in at most one pair.
   CloseReadings close_readings() const;
 
  private:
-  KrigedReadings(Eigen::VectorXd residual, noise::Field field, double far_off);
+  KrigedReadings(Eigen::VectorXd residual, noise::Field field, noise::Family fitted, double far_off);
   Eigen::VectorXd error_by(const noise::Whitener& whitener) const;
 
   Eigen::VectorXd residual_;
   noise::Field field_;
-  double far_off_ = 4;
+  noise::Family fitted_;
+  std::vector<Eigen::Index> judged_;
+  double far_off_;
   std::map<std::pair<FieldShape, int>, ReadingView> known_;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
@@ -82,8 +83,6 @@ VectorXd drawn_anew(const LawSources& s, const LawPart& law, VectorXd residual) 
 // Reason why single readings are not testable; empty if they are.
 std::string why_not(const LawSources& s, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
-  if (noise::fixed_share(s.state.fit.covariance.family) > 0)
-    return "not testable: readings of one place share a part of their scatter, such as multipath";
   if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
     return "not testable: the two directions of a link share a part of their scatter";
   if (finite(residual) < thresholds::fewest_law_readings)
@@ -203,11 +202,11 @@ void leave_the_stronger(Diagnosis& found) {
 
 // Readings whose link, moved by 5 mm, crosses other walls are excluded from these tests. The link may pass on the
 // other side, an error of a whole wall. Three of those among 20,000 readings resemble outliers.
-VectorXd without_grazing(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
+VectorXd without_grazing(const LawSources& s, const VectorXd& residual, std::vector<std::string>& notes) {
   const VectorXd unsure = s.model.changes_nearby(thresholds::grazing)(s.used);
   const auto grazes = unsure.array() > thresholds::grazing_change;
   if (const Index count = grazes.count())
-    found.notes.push_back(fmt::format(
+    notes.push_back(fmt::format(
         "{} of {} readings would cross other walls if they were {:.0f} mm off: how single readings scatter is asked "
         "without them",
         count, residual.size(), 1000 * thresholds::grazing));
@@ -226,12 +225,31 @@ VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& r
   return residual;
 }
 
+// Readings and the field about them, as the world states it where that fits.
+KrigedReadings kriged(const LawSources& s, const VectorXd& residual) {
+  const noise::Family fitted = s.state.fit.covariance.family;
+  const std::vector<noise::Family> likely = s.state.likely_families(fitted);
+  const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
+  return {s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr, fitted};
+}
+
+const std::string shared = "not testable: readings of one place share a part of their scatter, such as multipath";
+
 // Runs the tests on single readings in turn. Where the world states no law, normal noise and every law that could
 // replace another are the null: what adds outliers must be likelier.
 void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
   const ReadingDistribution stated = stated_law(s.model);
   const VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
-  const std::string why = why_not(s, anew);
+  std::vector<std::string> notes;
+  std::optional<KrigedReadings> field;
+  VectorXd residual;
+  std::string why = why_not(s, anew);
+  if (why.empty()) {
+    residual = without_grazing(s, anew, notes);
+    field = kriged(s, residual);
+    if (static_cast<Index>(field->judged().size()) < thresholds::fewest_law_readings)
+      why = shared + ", and fewer than 300 repeat another one";
+  }
   const std::string of_stated =
       !why.empty() || stated.base.law ? why : "not testable: no plugin of the world states a law of readings";
   for (const bool replacing : {false, true})
@@ -240,16 +258,15 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& f
                              return c.meaning().kind == MUSTER_LAW && c.plugin->law && replaces(s, c.id) == replacing;
                            }),
                replacing ? of_stated : why, found);
-  if (!of_stated.empty()) add_tested(fields_of(s), of_stated, found);
+  const std::string of_field =
+      of_stated.empty() && noise::fixed_share(s.state.fit.covariance.family) > 0 ? shared : of_stated;
+  if (!of_field.empty()) add_tested(fields_of(s), of_field, found);
   if (!why.empty()) return;
-  const std::vector<noise::Family> likely = s.state.likely_families(s.state.fit.covariance.family);
-  const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
-  const VectorXd residual = without_grazing(s, anew, found);
-  KrigedReadings field(s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr);
+  found.notes.insert(found.notes.end(), notes.begin(), notes.end());
   const std::size_t before = found.causes.size();
-  const ReadingDistribution law = add_scatter(s, stated, residual, field, found);
-  if (!of_stated.empty()) return;
-  add_field(s, field, law, found);
+  const ReadingDistribution law = add_scatter(s, stated, residual, *field, found);
+  if (!of_field.empty()) return;
+  add_field(s, *field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
 

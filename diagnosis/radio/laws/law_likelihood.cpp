@@ -40,8 +40,10 @@ double LawLikelihood::at(const ReadingDensities& densities, double log_variance,
                          Index every) {
   const ReadingView& view = field_.view(shape, place);
   const double size = log_variance - view.log_ratio;
+  const std::vector<Index>& judged = field_.judged();
   double sum = 0;
-  for (Index i = 0; i < field_.size(); i += every) sum += densities.log_at(view.error[i], size + view.log_spread[i]);
+  for (std::size_t k = 0; k < judged.size(); k += static_cast<std::size_t>(every))
+    sum += densities.log_at(view.error[judged[k]], size + view.log_spread[judged[k]]);
   return sum * static_cast<double>(every);
 }
 
@@ -125,14 +127,14 @@ Eigen::VectorXd LawLikelihood::each(const ReadingDistribution& law, const Peak& 
   const ReadingDensities densities = densities_of(law, log_variance, there, 0);
   const ReadingView& view = field_.view(there.shape, there.place);
   const double size = log_variance - view.log_ratio;
-  Eigen::VectorXd result(field_.size());
-  for (Index i = 0; i < field_.size(); ++i) result[i] = densities.log_at(view.error[i], size + view.log_spread[i]);
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(field_.size());
+  for (const Index i : field_.judged()) result[i] = densities.log_at(view.error[i], size + view.log_spread[i]);
   return result;
 }
 
 double LawLikelihood::about(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = log_variance_of(law);
-  const Index every = field_.size() / thresholds::rough_readings + 1;
+  const Index every = static_cast<Index>(field_.judged().size()) / thresholds::rough_readings + 1;
   return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);
 }
 

@@ -33,7 +33,7 @@ class LawLikelihood {
   std::vector<Peak> shapes(const ReadingDistribution& law, const noise::Covariance& from);
   // At one grid point.
   double value(const ReadingDistribution& law, const Peak& there);
-  // The terms of that, one a reading.
+  // The terms of that, one a reading; 0 of readings by which no law is judged.
   Eigen::VectorXd each(const ReadingDistribution& law, const Peak& there);
   // The same on an even subsample, if there are many readings; scaled to all.
   double about(const ReadingDistribution& law, const Peak& there);

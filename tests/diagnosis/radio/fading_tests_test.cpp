@@ -237,6 +237,48 @@ TEST(FadingTests, AFewReadingsMakeNoLaw) {
     EXPECT_GT(test.log_p, std::log(1e-3)) << test.cause;
 }
 
+// Three readings at each place, of 1.2 dB, and a fade of Rayleigh's law that is fixed there.
+Walk of_fixed_fades(double outliers) {
+  constexpr int places = 600;
+  const Walk field = drawn({.rician_k = 60}, places), fades = drawn({.rician_k = -40}, places, 1e-6),
+             levels = drawn({.rician_k = 60}, places, 1e-6);
+  Walk result;
+  std::vector<Eigen::Index> at;
+  for (Eigen::Index i = 0; i < 3 * places; ++i) at.push_back(i / 3);
+  result.readings.tx_at = field.readings.tx_at(Eigen::all, at);
+  result.readings.rx_at = field.readings.rx_at(Eigen::all, at);
+  const Stream random(key_of("readings of places"));
+  for (const Eigen::Index k : at) {
+    const auto i = static_cast<uint64_t>(result.readings.tx.size());
+    result.readings.t.push_back(0.4 * static_cast<double>(i));
+    result.readings.tx.push_back(0);
+    result.readings.rx.push_back(9);
+    const double far = random.uniform(i, 1) < outliers ? 40 * random.uniform(i, 2) - 20 : 0;
+    result.residual.conservativeResize(static_cast<Eigen::Index>(i) + 1);
+    result.residual[static_cast<Eigen::Index>(i)] =
+        std::round(field.residual[k] + fades.residual[k] - levels.residual[k] + 1.2 * random.normal(i, 0) + far);
+  }
+  return result;
+}
+
+// What is fixed at a place has a law of its own: only what readings of it differ by is judged.
+TEST(FadingTests, JudgesReadingsOfAPlaceByWhatTheyDifferBy) {
+  const noise::Covariance near{noise::with_fixed(noise::Family::exponential, 3, false), {3.5, 0.4, 0.4, 0}};
+  const auto tests_of = [&](double outliers) {
+    const Walk walk = of_fixed_fades(outliers);
+    KrigedReadings field(walk.readings, walk.residual, nullptr, near.family);
+    EXPECT_EQ(field.judged().size(), 1200u);
+    EXPECT_EQ(field.families().size(), 3u);
+    return law_tests(field, 1, shipped_laws, {}, near).tests;
+  };
+  for (const LawTest& test : tests_of(0)) EXPECT_GT(test.log_p, std::log(0.001)) << test.cause;
+  const LawTest best = tests_of(0.03).front();
+  EXPECT_EQ(best.cause, "effect.outliers");
+  EXPECT_LT(best.log_p, std::log(1e-12));
+  ASSERT_FALSE(best.values.empty());
+  EXPECT_NEAR(best.values[0].value, 0.03, 0.015);
+}
+
 TEST(FadingTests, DistinguishesChannelHoppingFromFading) {
   const LawTest best = tested({.rician_k = 12, .channel_sd = 4}, {.rician_k = 12}).front();
   EXPECT_EQ(best.cause, "effect.channel_mixture");
