@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
+#include "diagnosis/pipeline/exchanged_identity.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/first_cause.hpp"
 #include "diagnosis/pipeline/joint_refit.hpp"
@@ -69,6 +70,10 @@ class Diagnoser {
     for (const auto* more : {&setup_.sought.not_tested, &setup_.observed.untested})
       out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
     return watch_.stop() ? interrupted(std::move(out)) : out;
+  }
+
+  std::optional<CauseEstimate> exchange(const CauseEstimate& instead_of, const Diagnosis& found) {
+    return exchange_instead_of(instead_of, setup_, found);
   }
 
   OwnWorldVerdict in_own_worlds(const Diagnosis& found) {
@@ -309,15 +314,15 @@ struct Diagnosed {
   const inference::Watch& watch;
 
   // In the world corrected for a cause that was judged in a world of its own. Nothing if the error at left-out places
-  // is above that beside all that was found in the given world.
-  std::optional<Diagnosis> corrected_for(const OwnWorldVerdict& verdict, const Diagnosis& found) const {
+  // is above that beside all that was found in the given world. `by_itself`: as of Diagnoser::run.
+  std::optional<Diagnosis> corrected_for(const OwnWorldVerdict& verdict, const Diagnosis& found, bool by_itself) const {
     Diagnosis first = found;
     first.causes = {*verdict.cause};
     first.causes[0].put_right_first = true;
     for (const auto& [path, value] : verdict.parameters) first.parameters[path] = value;
     const TemporaryFolder folder;
-    Diagnosis out =
-        Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch).run(&first, true);
+    Diagnosis out = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch)
+                        .run(&first, by_itself);
     if (found.unseen && out.unseen &&
         out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
       return {};
@@ -335,7 +340,8 @@ void add_searched(const OwnWorldVerdict& verdict, Diagnosis& out) {
 
 // A fault of the map or the log that is likelier in a world of its own is corrected first. A radio in the wrong place
 // biases all other findings: the diagnosis is repeated with the radio corrected. After blockage it is repeated without
-// the blocked link, or the blocked readings. If a change in time remains, blockage must pass a stricter threshold.
+// the blocked link, or the blocked readings. If a change in time remains, blockage must pass a stricter threshold. A
+// radio that seems to stand where another should be may have its name: that is tried, too.
 Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::path& data,
                    const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
                    const inference::Watch& watch) {
@@ -345,10 +351,13 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   if (found.interrupted) return found;
   if (watch.stop()) return interrupted(std::move(found));
   const OwnWorldVerdict verdict = given->in_own_worlds(found);
+  const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
+  OwnWorldVerdict exchanged{{}, found.parameters, {}, {}};
+  if (spoiler && !blockage) exchanged.cause = given->exchange(*spoiler, found);
   given.reset();
   if (verdict.cause && !names(found, *verdict.cause)) {
     watch.at("diagnosing again, with the world corrected for " + verdict.cause->id);
-    auto corrected = Diagnosed{world, data, plugins, tables, watch}.corrected_for(verdict, found);
+    auto corrected = Diagnosed{world, data, plugins, tables, watch}.corrected_for(verdict, found, true);
     if (watch.stop()) return interrupted(std::move(found));
     if (corrected) {
       add_searched(verdict, *corrected);
@@ -356,7 +365,6 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     }
   }
   add_searched(verdict, found);
-  const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
   if (!spoiler) return found;
   watch.at("diagnosing again, with the world corrected for " + spoiler->id);
   Diagnosis first = found;
@@ -367,7 +375,12 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   if (!blockage) {
     first.causes[0].put_right_first = true;
     Diagnosis corrected = with_it.run(&first);
-    return watch.stop() ? interrupted(std::move(found)) : corrected;
+    if (watch.stop()) return interrupted(std::move(found));
+    if (!exchanged.cause) return corrected;
+    watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);
+    auto other = Diagnosed{world, data, plugins, tables, watch}.corrected_for(exchanged, found, false);
+    if (watch.stop()) return interrupted(std::move(found));
+    return other && other->unseen && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
   }
   Diagnosis again = with_it.run();
   if (watch.stop()) return interrupted(std::move(found));

@@ -324,7 +324,8 @@ inline constexpr double law_draw_errors = 3;
 // dB^2; of single readings by the world's laws, below which it states that they do not scatter; chosen;
 // FadingTests.NormalNoiseOfAWorldThatStatesNoneIsNoLaw
 inline constexpr double steady_variance = 0.02;
-// readings; of which the most telling ones must not carry a law alone; chosen; none
+// readings; which may be on the other side of a wall and must not carry a law alone; chosen;
+// FadingTests.AFewReadingsMakeNoLawBesideWalls
 inline constexpr Eigen::Index law_few = 2;
 // share; of a law's gain that these few carry, above which it is not named; chosen; none
 inline constexpr double law_few_share = 0.75;
@@ -374,5 +375,9 @@ inline constexpr double own_world_nats = 8;
 inline constexpr double own_world_worse = 1.02;
 // nats; within which another hypothesis is an alternative; chosen; none
 inline constexpr double own_world_open = 3;
+// factor; variance of a radio's readings about their level with two identities exchanged, over that beside all that was
+// found, up to which the exchange is tried; chosen;
+// ExchangedIdentity.StandsForARadioThatIsWhereAnotherShouldBe
+inline constexpr double exchange_alike = 1.1;
 
 }  // namespace muster::diagnosis::thresholds

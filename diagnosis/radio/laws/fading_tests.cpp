@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/laws/law_families.hpp"
@@ -121,13 +122,18 @@ class Tests {
     return judge_.each(fitted.law, fitted.peak) - judge_.each(null_law_, null_);
   }
 
-  // True if two readings carry most of the gain: one that passes a wall's end on the other side is no law. Outliers
-  // that can just be told (lambda 60) are some ten readings.
-  bool rests_on_few(const Fitted& fitted) {
-    const Eigen::Index few = thresholds::law_few;
-    Eigen::VectorXd won = this->won(fitted);
-    std::nth_element(won.data(), won.data() + few, won.data() + won.size(), std::greater<>());
-    return won.head(few).sum() > thresholds::law_few_share * won.sum();
+  // True if one reading carries most of the gain, or two that may be on the other side of a wall's end than said: these
+  // are no law. Outliers that can just be told (lambda 60) are some ten readings.
+  bool rests_on_few(const Fitted& fitted, const std::vector<bool>& unsure) {
+    const Eigen::VectorXd won = this->won(fitted);
+    std::vector<double> of_unsure{0, 0};
+    for (Eigen::Index i = 0; i < won.size(); ++i) {
+      if (!unsure.empty() && unsure[static_cast<std::size_t>(i)]) of_unsure.push_back(won[i]);
+    }
+    const auto few = of_unsure.begin() + thresholds::law_few;
+    std::partial_sort(of_unsure.begin(), few, of_unsure.end(), std::greater<>());
+    const double most = std::max(won.maxCoeff(), std::accumulate(of_unsure.begin(), few, 0.0));
+    return most > thresholds::law_few_share * won.sum();
   }
 
   // The strength with its 95 % interval by profile likelihood, wider by the gain's factor.
@@ -243,7 +249,7 @@ double gain_untamed(const KrigedReadings& field, double step, const ReadingDistr
 }  // namespace
 
 LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::shared_ptr<const ReadingLaw>>& laws,
-                   const ReadingDistribution& stated, const noise::Covariance& fit) {
+                   const ReadingDistribution& stated, const noise::Covariance& fit, const std::vector<bool>& unsure) {
   Tests tests(field, step, stated, fit);
   const std::vector<LawFamily> families = families_of(laws, tests.scattering());
   if (families.empty()) return {{}, tests.stated()};
@@ -281,8 +287,9 @@ LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::sh
     const auto& [family, fitted] = found;
     LawTest test{cause, {}, 0, 0, 0, fitted.law};
     const double beyond = family->part.law->replaces() ? 0 : of_null;
-    weigh(test,
-          tests.borne_out(fitted) && !tests.rests_on_few(fitted) ? std::max(0.0, tests.gain(fitted) - beyond) : 0);
+    weigh(test, tests.borne_out(fitted) && !tests.rests_on_few(fitted, unsure)
+                    ? std::max(0.0, tests.gain(fitted) - beyond)
+                    : 0);
     result.push_back(std::move(test));
   }
   std::stable_sort(result.begin(), result.end(),

@@ -29,8 +29,10 @@ struct LawTests {
 // average several fades of the stated spread: receivers average, and the mean of a few fades has another shape. Where
 // the world states readings that do not scatter it includes normal noise of any size: that a receiver is noisy is no
 // law of fading. It includes the field's variance, refitted under every law. `fit`: covariance of the field from rows,
-// the start of the search for its shape.
+// the start of the search for its shape. `unsure`: of each reading, true where its level would be another one with
+// walls or places as far off as they may be; empty: of none. A few of such readings make no law.
 LawTests law_tests(KrigedReadings& field, double step, const std::vector<std::shared_ptr<const ReadingLaw>>& laws,
-                   const ReadingDistribution& stated, const noise::Covariance& fit);
+                   const ReadingDistribution& stated, const noise::Covariance& fit,
+                   const std::vector<bool>& unsure = {});
 
 }  // namespace muster::diagnosis

@@ -116,11 +116,21 @@ bool replaces(const LawSources& s, const std::string& cause) {
   return std::any_of(laws.begin(), laws.end(), [&](const auto& law) { return law->id() == cause && law->replaces(); });
 }
 
+// Of each reading that is tested, if walls or places that are as far off as they may be change which walls it crosses.
+std::vector<bool> unsure(const LawSources& s, const VectorXd& residual) {
+  const VectorXd change = s.model.changes_nearby(*std::rbegin(thresholds::places_off))(s.used);
+  std::vector<bool> result;
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (std::isfinite(residual[i])) result.push_back(change[i] > thresholds::grazing_change);
+  }
+  return result;
+}
+
 // Tests the fading law. Returns the law of readings: the stated one, or the one named here.
 ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
                                 KrigedReadings& field, Diagnosis& found) {
   const auto [tests, likeliest] =
-      law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance);
+      law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance, unsure(s, residual));
   const auto best = tests.begin();
   if (likeliest.noise > 0)
     found.notes.push_back(fmt::format(

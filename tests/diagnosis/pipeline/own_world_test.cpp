@@ -6,6 +6,7 @@
 
 #include "diagnosis/pipeline/closed_loop.hpp"
 #include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/pipeline/exchanged_identity.hpp"
 #include "tests/diagnosis/pipeline/damaged_log.hpp"
 
 namespace muster::diagnosis {
@@ -21,6 +22,35 @@ TEST(OwnWorld, CleanReadingsAreSilent) {
   EXPECT_STREQ(found.verdict(), "adequate");
   for (const char* id : {"effect.column_shifted", "effect.labels_shifted", "effect.plan_turned"})
     EXPECT_TRUE(std::count(found.searched.begin(), found.searched.end(), id)) << id;
+}
+
+// A finding about the place of a radio, beside what explains the readings as well.
+std::optional<CauseEstimate> instead_of_misplaced(const DamagedLog& log, const std::string& radio) {
+  const Diagnosis found = diagnose(log.world, log.table, plugins);
+  DiagnosisSetup setup(log.world, log.table, plugins, std::make_shared<TableCache>());
+  CauseEstimate misplaced = found.causes.at(0);
+  misplaced.id = "effect.tx_misplaced";
+  misplaced.row = radio;
+  return exchange_instead_of(misplaced, setup, found);
+}
+
+TEST(ExchangedIdentity, StandsForARadioThatIsWhereAnotherShouldBe) {
+  const Scratch scratch;
+  const DamagedLog log = damaged_log(scratch, Fault::swapped, 1);
+  const std::string first = log.truth.substr(log.truth.find('/') + 1, 2),
+                    second = log.truth.substr(log.truth.size() - 2);
+  for (const std::string& radio : {first, second}) {
+    const auto exchange = instead_of_misplaced(log, radio);
+    ASSERT_TRUE(exchange) << radio;
+    EXPECT_EQ(exchange->id + ' ' + exchange->label, log.truth);
+    EXPECT_GT(exchange->lambda, 0);
+  }
+}
+
+TEST(ExchangedIdentity, IsNotTriedForARadioThatStandsWhereNoOtherShould) {
+  const Scratch scratch;
+  const DamagedLog log = damaged_log(scratch, Fault::misplaced, 1);
+  EXPECT_FALSE(instead_of_misplaced(log, log.truth.substr(log.truth.find('/') + 1)));
 }
 
 class OwnWorldLoop : public testing::TestWithParam<Fault> {};
