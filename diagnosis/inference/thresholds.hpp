@@ -212,6 +212,9 @@ inline constexpr double same_field = 0.2;
 inline constexpr std::size_t drawn_atoms = 1000;
 // draws; of the model, whose distance from what it states is compared with the data's; chosen; none
 inline constexpr Eigen::Index compared_draws = 6;
+// squared units; of one reading, below which nothing but rounding blurs a field; chosen;
+// ResemblesDraws.DataThatNothingBlursDo
+inline constexpr double unblurred_variance = 0.1;
 // count; atoms of one candidate that are enough to know the bulk; chosen; none
 inline constexpr std::size_t bulk_atoms = 200;
 // atoms; fewest that are a bulk; chosen; none

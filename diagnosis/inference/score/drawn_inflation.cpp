@@ -60,6 +60,7 @@ double drawn_inflation(const ModelState& state, const WhitenedModel& model, cons
 bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field) {
   const noise::Covariance& fitted = state.fit.covariance;
   if (!state.field().sites().stated || state.drawn(field).cols() == 0) return false;
+  if (fitted.reading_variance() < thresholds::unblurred_variance) return true;
   const auto as = [&](noise::Family family) {
     return noise::as_stated(field, with_share_of(fitted.family, family), fitted.theta, state.within());
   };

@@ -16,7 +16,8 @@ double drawn_inflation(const ModelState& state, const WhitenedModel& model, cons
 // are: by the likelihood ratio of the fitted family, or else the exponential one, to the stated one, beyond the range
 // of its values in draws by as much as that range (a parametric bootstrap: Davison and Hinkley, Bootstrap Methods and
 // their Application, 1997, 4.4). Of other data the inflation in draws says nothing, and would hide what is there. False
-// where the model states no correlation, or draws nothing.
+// where the model states no correlation, or draws nothing. True where nothing blurs the field: no covariance has the
+// structure of a few waves then, whatever effects are in the data, too.
 bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field);
 
 }  // namespace muster::inference

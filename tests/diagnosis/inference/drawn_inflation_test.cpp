@@ -159,5 +159,23 @@ TEST(ResemblesDraws, DataOfTheStatedFieldDoAndThoseOfAnotherDoNot) {
   EXPECT_GE(own, 3);
 }
 
+// The data of another field do where no reading scatters by itself, and only there.
+TEST(ResemblesDraws, DataThatNothingBlursDo) {
+  const auto world = world_of(varied(1, 1200));
+  const Stream stream(33);
+  for (const double scatter : {0.05, 0.5}) {
+    Problem problem = problem_of(world, VectorXd::Zero(world.rssi.size()), causes_of(world));
+    problem.layout = std::make_shared<const diagnosis::LinkLayout>(
+        world.readings, diagnosis::LinkRowLimits{}, std::vector<int>{}, true, std::make_shared<Smooth>());
+    problem.drawn = [&](const noise::StatedField&, Index count) { return of_the_stated_field(problem, count, 40); };
+    for (Index i = 0; i < problem.measured.size(); ++i)
+      problem.measured[i] = 3 * std::cos(0.8 * world.readings.rx_at(0, i)) + 3 * std::cos(world.readings.rx_at(1, i)) +
+                            scatter * stream.normal(static_cast<uint64_t>(i));
+    const ModelState state(problem, {});
+    EXPECT_EQ(resembles_draws(state, state.base(), state.drawable().back()), scatter < 0.1)
+        << scatter << ' ' << state.fit.covariance.reading_variance();
+  }
+}
+
 }  // namespace
 }  // namespace muster::inference
