@@ -96,7 +96,7 @@ TEST(Fault16, ThrowsInCreate) {
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
   const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.refuses/>"), 2,
-               "world.xml:1:36: test.refuses (test.refuses): create failed: the moon is no place for it");
+               "world.xml:1:36: test.refuses (test.refuses): the moon is no place for it");
 }
 
 TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {

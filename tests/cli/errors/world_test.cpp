@@ -108,7 +108,8 @@ TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
   const auto outcome = folder.muster({"check", "world.xml"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
-            "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees?\n"
+            "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees? 90 degrees "
+            "are 1.5708 rad\n"
             "w: 0 instances, 0 tables; no error, 1 warning\n");
 }
 
@@ -133,7 +134,8 @@ TEST(Fault7, WallsWithoutLengthAndDoorsBeyondTheirsAreToldWithTheirLines) {
   const std::string wall = R"(<wall name="w1" from="0 0" to="3 4" material="m"/>)";
   folder.expect_refused(
       world_of(brick + "<door name=\"d1\" wall=\"w1\" at=\"4.2\"/>\n" + wall),
-      "world.xml:2:1: door \"d1\" ends beyond its wall; expected at + width within the wall's length");
+      "world.xml:2:26: door \"d1\" ends at 5.1 m (at 4.2 + width 0.9) of the wall \"w1\", which is 5 m long; expected "
+      "at=\"4.1\" or less");
   folder.write("world.xml", world_of(brick + "<door wall=\"w1\" at=\"4.1\"/>\n" + wall));
   EXPECT_EQ(folder.muster({"check", "world.xml"}).exit, 0);
   folder.write("walls.csv",

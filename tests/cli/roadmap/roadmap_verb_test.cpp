@@ -117,7 +117,7 @@ TEST(RoadmapVerb, RefusesWordsThatItCannotUse) {
   refused({"--robot", "one", "--path", "way.csv"}, "--path needs a goal; expected --to X Y beside it");
   refused({"--radius", "0.2", "--to", "1", "1"},
           "--to needs a start; expected --from X Y, or --robot NAME in place of --radius");
-  refused({"--robot", "one", "--to", "-1", "-1", "--path", "way.csv"}, "--path: no way leads from 3 2 to -1 -1");
+  refused({"--robot", "one", "--to", "-1", "-1", "--path", "way.csv"}, "--to: no way leads from 3 2 to -1 -1");
   refused({"--robot", "one", "--method", "grid", "--step", "0.01", "--room", "50"},
           "world.xml: the lattice has more than a million places; expected a larger step or a smaller area");
   refused({"--radius", "0.2"}, "empty.xml: there is neither a wall nor a robot: no area to plan in", "empty.xml");

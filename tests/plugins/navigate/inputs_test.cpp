@@ -120,7 +120,7 @@ TEST(NavigateInputs, ARobotWithoutALaserCannotUseOne) {
              {{"goals.csv", "x[m],y[m]\n7,1\n"}}, minutes);
     FAIL();
   } catch (const Error& e) {
-    EXPECT_THAT(std::string(e.what()), testing::HasSubstr("the robot has no laser"));
+    EXPECT_THAT(std::string(e.what()), testing::HasSubstr(") has no laser; expected fittings="));
   }
 }
 
