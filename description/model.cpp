@@ -60,9 +60,9 @@ std::string suggestion(const std::string& model, const std::vector<std::string>&
   const std::string like = by_word(model, names);
   const std::string near = like.empty() ? nearest(model, names) : "; did you mean \"" + like + "\"?";
   std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "; expected one of " : ", ") + name;
-  return near + (all.empty() ? "; expected a file of a URDF" : all + ", or a file of a URDF") + ", such as \"" +
-         fs::path(model).filename().string() + ".urdf\"";
+  for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
+  return near + (near.empty() ? "; expected " : " expected ") + (all.empty() ? "a URDF file" : all + ", or a URDF file") +
+         ", such as \"" + fs::path(model).filename().string() + ".urdf\"";
 }
 
 // Kinds of files that are no description here, by their ends.

@@ -109,7 +109,6 @@ struct Host {
     std::vector<std::string> declared;
     for (uint32_t p = 0; p < i.plugin_->param_count; ++p) declared.emplace_back(i.plugin_->params[p].name);
     wrong(i, std::string("asks for the parameter \"") + name + "\", which it does not declare" +
-                 did_you_mean(name, declared) +
                  (declared.empty() ? "; it declares none" : "; declared are " + listed(declared)));
     return 0;
   }

@@ -56,6 +56,21 @@ std::string with_names(std::string words, const Blackboard& board, const World& 
   return place + words;
 }
 
+// A file in the world's folder by the path that the user knows it by: as the world's own was given.
+std::string as_given(const std::string& words, const Surroundings& around) {
+  const std::string folder = around.search_path.empty() ? "" : around.search_path.back().string() + '/';
+  const std::string given = around.world->file.parent_path().string();
+  if (folder.empty() || !words.starts_with(folder)) return words;
+  return (given.empty() ? "" : given + '/') + words.substr(folder.size());
+}
+
+// `; did you mean "size"? declared are size, colour`.
+std::string among(const std::string& name, const std::vector<std::string>& declared) {
+  const std::string near = did_you_mean(name, declared);
+  if (declared.empty()) return "; it declares none";
+  return near + (near.empty() ? "; " : " ") + "declared are " + listed(declared);
+}
+
 // A plugin that asks for a parameter by a name that it has not declared is told which it has.
 std::string with_declared(const std::string& words, const muster_plugin& plugin) {
   const std::string begin = "threw std::logic_error: parameter \"", middle = "\" is used but not declared";
@@ -64,8 +79,7 @@ std::string with_declared(const std::string& words, const muster_plugin& plugin)
   const std::string name = words.substr(begin.size(), end - begin.size());
   std::vector<std::string> declared;
   for (uint32_t i = 0; i < plugin.param_count; ++i) declared.emplace_back(plugin.params[i].name);
-  return "parameter " + quote(name) + " is used but not declared in params" + did_you_mean(name, declared) +
-         (declared.empty() ? "; it declares none" : "; declared are " + listed(declared));
+  return "parameter " + quote(name) + " is used but not declared in params" + among(name, declared);
 }
 
 }  // namespace
@@ -202,7 +216,7 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   words = with_names(with_declared(words, *plugin_), *around_.board, *around_.world);
   // What is wrong in a file of the user's is told at its own place, whoever found it.
   const bool is_users = fault == Exit::invalid_input && (!tick || is_early);
-  if (is_users && has_place(words)) return Error(fault, words);
+  if (is_users && has_place(words)) return Error(fault, as_given(words, around_));
   return Error(fault, title() + ": " + (is_users ? "" : callback + " failed" + where + ": ") + words);
 }
 

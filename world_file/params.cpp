@@ -16,10 +16,10 @@ namespace {
 [[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what,
                          const std::string& hint = "") {
   const std::string help = declared.help ? declared.help : "";
-  const auto order = count > 1 ? help.find(": ") : help.npos;  // "place: x y z"
+  const bool has_order = count > 1 && help.find(": ") != help.npos;  // "place: x y z"
   throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " +
                                        expectation(declared, count) + (count > 1 ? ", with spaces between them" : "") +
-                                       (order == help.npos ? "" : " (" + help.substr(order + 2) + ")") + hint);
+                                       (has_order ? " (" + help + ")" : "") + hint);
 }
 
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {

@@ -110,10 +110,9 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
                            name(k, way.back()) + ',' + name(k, to) + ",NEXT");
         return;
       }
-      const auto seen = std::find(way.begin(), way.end(), *next);
-      way.push_back(*next);
-      if (seen == way.end() - 1) continue;
       const auto first = static_cast<std::size_t>(std::find(way.begin(), way.end(), *next) - way.begin());
+      way.push_back(*next);
+      if (first + 1 == way.size()) continue;
       std::set<Radio> loop(way.begin() + static_cast<std::ptrdiff_t>(first), way.end());
       loop.insert(static_cast<Radio>(k.rows("radio") + to));  // one of another target is another loop
       const Radio back = way[way.size() - 2];                 // whose row closes it

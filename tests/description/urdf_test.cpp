@@ -366,15 +366,15 @@ TEST(Model, AbsentOneIsNamedWithItsNearest) {
   Files files;
   files.write("scarab.urdf", "");
   EXPECT_EQ(message_of([&] { find_model("scrab", {files.at("")}); }),
-            "there is no model \"scrab\"; did you mean 'scarab'?; expected one of scarab, or a file of a URDF, such as "
+            "there is no model \"scrab\"; did you mean 'scarab'? expected one of scarab, or a URDF file, such as "
             "\"scrab.urdf\"");
   files.write("crate.urdf", "");
   EXPECT_EQ(message_of([&] { find_model("turtlebot", {files.at("")}); }),
-            "there is no model \"turtlebot\"; expected one of crate, scarab, or a file of a URDF, such as "
+            "there is no model \"turtlebot\"; expected one of crate, scarab, or a URDF file, such as "
             "\"turtlebot.urdf\"");
   files.write("husky.urdf", "");
   files.write("waffle.urdf", "");
-  const std::string all = "; expected one of crate, husky, scarab, waffle, or a file of a URDF, such as ";
+  const std::string all = " expected one of crate, husky, scarab, waffle, or a URDF file, such as ";
   EXPECT_EQ(message_of([&] { find_model("turtlebot3_burger", {files.at("")}); }),
             "there is no model \"turtlebot3_burger\"; did you mean \"waffle\"?" + all + "\"turtlebot3_burger.urdf\"");
   EXPECT_EQ(message_of([&] { find_model("husky_a200", {files.at("")}); }),

@@ -77,5 +77,16 @@ TEST(Names, QuotesStayOnOneShortLine) {
   EXPECT_EQ(quote(std::string(59, 'a') + "é"), '"' + std::string(59, 'a') + "...\"");  // é has two bytes
 }
 
+TEST(Names, APathIsMeantByItsPartsAndByWhatTheyMeanElsewhere) {
+  const std::vector<std::string> tables = {"robot/*/odometry", "robot/*/pose", "scan/*/message"};
+  EXPECT_EQ(did_you_mean("/robot1/scan", tables), "; did you mean \"scan/*/message\"?");
+  EXPECT_EQ(did_you_mean("/tf", tables), "; did you mean \"robot/*/pose\"?");
+  EXPECT_EQ(did_you_mean("/robot1/pose", tables), "; did you mean \"robot/*/pose\"?");
+  EXPECT_EQ(did_you_mean("/battery", tables), "");
+  EXPECT_EQ(did_you_mean("network.zigbee", {"network.ideal", "network.wifi"}), "");
+  EXPECT_EQ(did_you_mean("goal_tolerance", {"goals", "tolerance"}), "; did you mean \"tolerance\"?");
+  EXPECT_EQ(did_you_mean("node", {"controller", "robot"}), "; did you mean \"controller\"?");
+}
+
 }  // namespace
 }  // namespace muster

@@ -40,8 +40,8 @@ TEST(Fault5, HabitsOfSdfAndRos) {
                         "world.xml:1:58: the text \"3 2 0 0 0 1.5\" stands between elements; expected attributes: "
                         "<robot at=\"3 2 0\" heading=\"1.5\"/>");
   folder.expect_refused(world_of(R"(<physics type="ode"><max_step_size>0.001</max_step_size></physics>)"),
-                        "world.xml:1:71: the text \"0.001\" stands between elements; <physics> is no element of a "
-                        "world; the physics is a plugin, such as <physics.simbody/>");
+                        "world.xml:1:36: <physics> is no element of a world; the physics is a plugin, such as "
+                        "<physics.simbody/>");
   folder.expect_refused(
       world_of(R"(<station name="rover" at="0 0 1"/><record table="/rover/traffics"/>)"),
       "world.xml:1:70: record: there is no table \"/rover/traffics\"; did you mean \"radio/rover/traffic\"? expected "
@@ -72,7 +72,7 @@ TEST(Fault5, WordsOfTheCommandLineToo) {
   EXPECT_EQ(misspelt.exit, 2);
   EXPECT_THAT(misspelt.err, testing::StartsWith("muster: error: there is no verb \"chekc\"; did you mean \"check\"? "
                                                 "expected one of run, check, "));
-  expect_error(folder.muster({"check"}), 2, "muster check: world is required; see muster check --help");
+  expect_error(folder.muster({"check"}), 2, "muster check: world is required: the world's folder or file; see muster check --help");
 }
 
 void expect_numbers_refused(const std::vector<std::string>& environment) {

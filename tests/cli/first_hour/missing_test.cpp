@@ -97,7 +97,7 @@ TEST(FirstHour, AModelThatIsNotThereHasTheRobotsPlace) {
   const auto outcome = folder.muster({"check", "world.xml"});
   EXPECT_THAT(outcome.err,
               testing::StartsWith("muster: error: world.xml:2:24: attribute \"model\": there is no model \"scrab\"; did "
-                                  "you mean 'scarab'?; expected one of crate, f1tenth, "));
+                                  "you mean 'scarab'? expected one of crate, f1tenth, "));
 }
 
 }  // namespace
