@@ -52,7 +52,7 @@ class Doubts {
   }
 
   static std::string in_radians(double degrees) {
-    return print_number(degrees) + " degrees are " + print_number(degrees * turn / 360) + " rad";
+    return print_number(degrees) + " degrees are " + print_number(degrees * 0.017453292519943295) + " rad";
   }
 
   void angles(const XMLElement& element, const std::string& owner) {

@@ -268,8 +268,11 @@ std::string Simulation::suggest_table(const std::string& name) const {
     const std::string meant = of_named_row(name, valid);
     if (!meant.empty())
       return "did you mean " + quote(meant) + "? expected SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows";
-    return (name.starts_with('/') ? "tables are SET/ROW/QUANTITY, and no topics; " : "") +
-           suggest(name, {valid.begin(), valid.end()});
+    const std::vector<std::string> all(valid.begin(), valid.end());
+    if (!name.starts_with('/')) return suggest(name, all);
+    const std::string question = did_you_mean(name, all);
+    return "tables are SET/ROW/QUANTITY, and no topics; " + (question.empty() ? "" : question.substr(2) + ' ') +
+           expected_one_of(all);
   }
   std::vector<std::string> words, tables;
   for (const auto& [word, table] : of_word) words.push_back(word);

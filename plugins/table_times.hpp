@@ -34,12 +34,12 @@ class TableTimes {
 
   const TableRows& rows() const { return rows_; }
 
- private:
   static std::string print(double value) {
     char text[32];
     return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.14g", value))};
   }
 
+ private:
   double until_ = 0;  // [s]
   TableRows rows_;
 };

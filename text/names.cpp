@@ -60,9 +60,14 @@ bool is_name(std::string_view text) {
 std::string nearest(std::string_view wrong, const std::vector<std::string>& valid) {
   std::string best;
   std::size_t best_distance = wrong.size() + 1;
+  // Paths of one set are no nearer for the words that all of them begin with.
+  const std::size_t separator = wrong.rfind('/');
+  const std::size_t kind = separator == wrong.npos || separator + 1 == wrong.size() ? 0 : separator + 1;
   for (const std::string& name : valid) {
-    const std::size_t longer = std::max(wrong.size(), name.size());
-    const std::size_t shorter = std::min(wrong.size(), name.size());
+    const bool is_of_kind = name.size() > kind && name.compare(0, kind, wrong.substr(0, kind)) == 0;
+    const std::size_t same = is_of_kind && name.find('/', kind) == name.npos ? kind : 0;
+    const std::size_t longer = std::max(wrong.size(), name.size()) - same;
+    const std::size_t shorter = std::min(wrong.size(), name.size()) - same;
     const std::size_t cut_off = (longer + 1) / 3;
     if (longer - shorter > cut_off) continue;
     const std::size_t d = distance(wrong, name);

@@ -125,7 +125,7 @@ class RowReader {
     const double at = door[1], width = door[2], length = std::hypot(wall[2] - wall[0], wall[3] - wall[1]);
     const auto given = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& p) { return p.row == row; });
     const XmlAttribute* begins = given == pending_.end() ? nullptr : given->given->attribute("at");
-    const double most = std::floor((length - width) * 1e6) / 1e6;
+    const double most = rounded(length - width);
     throw invalid(begins ? begins->value_place : declared.place,
                   "door " + quote(declared.name) + " ends at " + print_real(rounded(at + width)) + " m (at " +
                       print_real(at) + " + width " + print_real(width) + ") of the wall " + quote(name) +

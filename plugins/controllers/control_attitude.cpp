@@ -43,8 +43,8 @@ struct ControlAttitude {
       ++number;
       if (!is_null(row.robot) && row.robot != k[robot]) continue;
       if (!(row.t > last)) 
-        throw BadInput(times.rows().at(number - 1) + "t does not rise: " + std::to_string(row.t) + " s after " +
-                       std::to_string(last) + " s; expected the rows of a robot in the order of time");
+        throw BadInput(times.rows().at(number - 1) + "t does not rise: " + TableTimes::print(row.t) + " s after " +
+                       TableTimes::print(last) + " s; expected the rows of a robot in the order of time");
       last = row.t;
       if (++own == 1) first = number - 1;
       if (row.t <= now) *k[command] = row.asked;

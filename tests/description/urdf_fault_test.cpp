@@ -281,7 +281,7 @@ const Case cases[] = {
          wheels(
              "left='jw' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'") +
          "<muster><ball joint='jw'/></muster>",
-     "3: joint 'jw', a wheel of <differential> (line 9), is ball; expected type=\"continuous\""},
+     "3: joint 'jw', a wheel of <differential> (line 9), is floating; expected type=\"continuous\""},
     {"negative_damping",
      link("a", mass) + link("b", mass) +
          joint("j", "a", "b", "continuous", "<axis xyz='0 0 1'/><dynamics damping='-1'/>"),

@@ -134,7 +134,7 @@ TEST(Fault7, WallsWithoutLengthAndDoorsBeyondTheirsAreToldWithTheirLines) {
   const std::string wall = R"(<wall name="w1" from="0 0" to="3 4" material="m"/>)";
   folder.expect_refused(
       world_of(brick + "<door name=\"d1\" wall=\"w1\" at=\"4.2\"/>\n" + wall),
-      "world.xml:2:26: door \"d1\" ends at 5.1 m (at 4.2 + width 0.9) of the wall \"w1\", which is 5 m long; expected "
+      "world.xml:2:31: door \"d1\" ends at 5.1 m (at 4.2 + width 0.9) of the wall \"w1\", which is 5 m long; expected "
       "at=\"4.1\" or less");
   folder.write("world.xml", world_of(brick + "<door wall=\"w1\" at=\"4.1\"/>\n" + wall));
   EXPECT_EQ(folder.muster({"check", "world.xml"}).exit, 0);

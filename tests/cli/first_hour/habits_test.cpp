@@ -70,15 +70,23 @@ TEST(Habits, AUrdfIsToldByItsOwnPlaceAndName) {
             begin + "bot.urdf:4: <axis> has no element <xyz>, as in SDF; expected <axis xyz=\"0 0 1\"/>\n");
 }
 
+TEST(Habits, APluginIsMeantByItsSenseAndNotByTheWordOfItsKind) {
+  EXPECT_THAT(refusal_of(rover + "<sensors.lidar robot=\"rover\"/>"),
+              testing::EndsWith("; did you mean \"sensors.laser\"?\n"));
+  EXPECT_THAT(refusal_of(rover + "<sensors.compass robot=\"rover\"/>"), testing::Not(testing::HasSubstr("did you mean")));
+  EXPECT_THAT(refusal_of(rover + "<sensors.lasre/>"), testing::EndsWith("; did you mean \"sensors.laser\"?\n"));
+}
+
 TEST(Habits, TopicsAreNoTables) {
   const std::string no_topics = "; tables are SET/ROW/QUANTITY, and no topics; did you mean ";
   for (const auto& [topic, table] : {std::pair("/tf", "robot/*/pose"), std::pair("/r1/odom", "robot/*/odometry"),
                                      std::pair("/cmd_vel", "robot/*/command"), std::pair("/scan", "scan/*/message"),
                                      std::pair("/fix", "robot/*/gps")}) {
-    EXPECT_THAT(refusal_of(rover + "<physics.planar/><robots.drive/><robots.odometry/><sensors.laser/>\n"
+    EXPECT_THAT(refusal_of(rover + "<physics.planar/><robots.drive/><robots.odometry/><sensors.laser/>"
+                                   "<control.steady robot=\"rover\"/>\n"
                                    "<record table=\"" +
                            topic + "\"/>"),
-                testing::StartsWith(begin + "world.xml:5:1: record: there is no table \"" + topic + '"' + no_topics + '"' +
+                testing::StartsWith(begin + "world.xml:4:1: record: there is no table \"" + topic + '"' + no_topics + '"' +
                                     table + "\"? expected one of "));
   }
 }
