@@ -14,8 +14,7 @@ std::string quote(std::string_view text);
 bool is_name(std::string_view text);
 
 // The valid name that is fewest typing errors away (a letter lost, added, changed or exchanged with its neighbour; case
-// does not count), the first of equals; empty if all are more than a third of their length away, without the part up to
-// the last slash where both begin with it.
+// does not count), the first of equals; empty if all are more than a third of their length away.
 std::string nearest(std::string_view wrong, const std::vector<std::string>& valid);
 
 // `a, b, c`, at most 30 of them.
