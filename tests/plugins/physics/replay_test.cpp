@@ -99,7 +99,7 @@ TEST(Replay, DegreesAndJumpsAreWarnedOfOnce) {
   const std::string head = "t[s],robot,x[m],y[m],yaw[rad]\n", row = ".csv:3:1: robot 'a': ";
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,90\n2,a,1,1,180\n"),
             std::vector<std::string>({row + "90 rad is more than a full turn; are these degrees? 90 degrees are "
-                                            "1.5707963267949 rad"}));
+                                            "1.5708 rad"}));
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n0.01,a,500,0,0\n"),
             std::vector<std::string>({row + "it moves by 500 m in 0.01 s"}));
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,6.28\n"), std::vector<std::string>());
