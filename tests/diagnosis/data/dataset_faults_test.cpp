@@ -27,7 +27,8 @@ TEST(DatasetFaults, TimeRunsBackwardsWithinAPair) {
   EXPECT_EQ(
       reading(header + "5,a,b,0,0,1,0,-50\n1,a,c,0,0,2,0,-51\n4,a,b,0,0,1,0,-52\n"),
       "d.csv:4:1: row 3: time runs backwards for a -> b at t = 4 s, after 5 s in row 1; expected rows of a pair in the "
-      "order of time");
+      "order of time: are these two runs in one table? expected a "
+      "table each, or the times of the second later: 4 s as more than 5 s");
 }
 
 TEST(DatasetFaults, LevelsThatNoReceiverGives) {
