@@ -92,7 +92,7 @@ std::string too_many(const CLI::App& app, const std::string& word) {
             : !near.empty() ? near + " (" + name.substr(2) + " is no option)"
             : may_set       ? "; expected options, and parameters of plugins as --set PATH=VALUE, such as --set " +
                             (key.find('/') == key.npos ? "INSTANCE/" + key : key) + '=' + value
-                            : "; expected options such as --help");
+                      : "; expected options such as --help");
   }
   for (const CLI::Option* each : app.get_options()) {
     if (each->check_name("--set") && each->count() > 0 && each->results().back().find('=') == std::string::npos)

@@ -51,16 +51,16 @@ void check_area(const std::vector<double>& area) {
                        : name + "0 = " + print_real(low) + " is above " + name + "1 = " + print_real(high);
   };
   const bool is_exchanged = x0 < y0 && x1 < y1;  // taken as X0 X1 Y0 Y1
-  const std::vector<double> meant = is_exchanged ? std::vector<double>{x0, x1, y0, y1}
-                                                 : std::vector<double>{std::min(x0, x1), std::min(y0, y1),
-                                                                       std::max(x0, x1), std::max(y0, y1)};
+  const std::vector<double> meant =
+      is_exchanged ? std::vector<double>{x0, x1, y0, y1}
+                   : std::vector<double>{std::min(x0, x1), std::min(y0, y1), std::max(x0, x1), std::max(y0, y1)};
   const bool has_area = meant[0] < meant[2] && meant[1] < meant[3];
-  throw Error(Exit::invalid_input,
-              "--area: " + numbers(area) + ": " + (x0 < x1 ? told("Y", y0, y1) : told("X", x0, x1)) +
-                  "; expected X0 Y0 X1 Y1, two corners, X0 < X1 and Y0 < Y1" +
-                  (has_area ? "; did you mean --area " + numbers(meant) + "?" +
-                                  (is_exchanged ? " (from its order X0 X1 Y0 Y1)" : "")
-                            : ""));
+  throw Error(Exit::invalid_input, "--area: " + numbers(area) + ": " +
+                                       (x0 < x1 ? told("Y", y0, y1) : told("X", x0, x1)) +
+                                       "; expected X0 Y0 X1 Y1, two corners, X0 < X1 and Y0 < Y1" +
+                                       (has_area ? "; did you mean --area " + numbers(meant) + "?" +
+                                                       (is_exchanged ? " (from its order X0 X1 Y0 Y1)" : "")
+                                                 : ""));
 }
 
 MapWords words_of(const Arguments& arguments) {
@@ -159,7 +159,8 @@ Grid grid_of(const pic::FloorPlan& plan, const std::vector<Sender>& senders, con
     add(words.area[0], words.area[1]), add(words.area[2], words.area[3]);
   }
   const double width = x.range().span(), height = y.range().span();
-  if (!(width > 0 && height > 0)) throw Error(Exit::invalid_input, "--area: the plan has no width or no height; expected X0 Y0 X1 Y1");
+  if (!(width > 0 && height > 0))
+    throw Error(Exit::invalid_input, "--area: the plan has no width or no height; expected X0 Y0 X1 Y1");
   const double cell = std::max(width, height) / words.cells;
   const auto count = [&](double length) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell - 1e-9)));
@@ -244,7 +245,8 @@ std::string doubt_of_height(const Simulation& run, const std::vector<Sender>& se
       if (given.table != "wall/shape") continue;
       std::array<double, 8> wall{};
       given.store ? given.store(given.values.data(), wall.data())
-                  : static_cast<void>(std::copy_n(given.values.begin(), std::min(given.values.size(), wall.size()), wall.begin()));
+                  : static_cast<void>(
+                        std::copy_n(given.values.begin(), std::min(given.values.size(), wall.size()), wall.begin()));
       top = std::max(top, wall[4] + wall[5]);
     }
   }

@@ -29,12 +29,12 @@ std::vector<std::string> models_in(const std::vector<std::string>& directories) 
 struct Alike {
   const char *foreign, *here;
 };
-constexpr Alike alike[] = {{"burger", "waffle"},     {"turtlebot", "waffle"},    {"turtlebot2", "waffle"},
-                           {"turtlebot3", "waffle"}, {"turtlebot4", "waffle"},   {"jackal", "husky"},
-                           {"pioneer3at", "husky"},  {"warthog", "husky"},       {"iris", "hummingbird"},
+constexpr Alike alike[] = {{"burger", "waffle"},     {"turtlebot", "waffle"},      {"turtlebot2", "waffle"},
+                           {"turtlebot3", "waffle"}, {"turtlebot4", "waffle"},     {"jackal", "husky"},
+                           {"pioneer3at", "husky"},  {"warthog", "husky"},         {"iris", "hummingbird"},
                            {"x500", "hummingbird"},  {"quadrotor", "hummingbird"}, {"drone", "hummingbird"},
-                           {"racecar", "f1tenth"},   {"hexapod", "rdk"},         {"rhex", "rdk"},
-                           {"box", "crate"},         {"diffbot", "scarab"},      {"pioneer2dx", "scarab"}};
+                           {"racecar", "f1tenth"},   {"hexapod", "rdk"},           {"rhex", "rdk"},
+                           {"box", "crate"},         {"diffbot", "scarab"},        {"pioneer2dx", "scarab"}};
 
 // The model that is a word of the name, as "husky" of "husky_a200", or that is like it; "" where there is none.
 std::string by_word(const std::string& model, const std::vector<std::string>& names) {
@@ -61,8 +61,9 @@ std::string suggestion(const std::string& model, const std::vector<std::string>&
   const std::string near = like.empty() ? nearest(model, names) : "; did you mean \"" + like + "\"?";
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
-  return near + (near.empty() ? "; expected " : " expected ") + (all.empty() ? "a URDF file" : all + ", or a URDF file") +
-         ", such as \"" + fs::path(model).filename().string() + ".urdf\"";
+  return near + (near.empty() ? "; expected " : " expected ") +
+         (all.empty() ? "a URDF file" : all + ", or a URDF file") + ", such as \"" +
+         fs::path(model).filename().string() + ".urdf\"";
 }
 
 // Kinds of files that are no description here, by their ends.
@@ -105,8 +106,9 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
   const std::string file = is_path ? model : model + ".urdf";
   if (const std::string kind = of_other_kind(model); !kind.empty())
     throw std::runtime_error(model + " is " + kind + ", which muster does not read as a robot; expected URDF or MJCF" +
-                             (kind == "a mesh" ? ", in which a mesh may be a shape" : ": gz sdf, xacro and CAD "
-                                                                                     "programs write URDF"));
+                             (kind == "a mesh" ? ", in which a mesh may be a shape"
+                                               : ": gz sdf, xacro and CAD "
+                                                 "programs write URDF"));
   if (!is_path && model.find('/') != std::string::npos) {
     throw std::runtime_error("\"" + model + "\" is neither a name nor the path of a .urdf file" +
                              suggestion(model, models_in(directories)));
@@ -118,7 +120,8 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
     if (fs::exists(path, ignored)) return path.string();
     tried += (tried.empty() ? "" : ", ") + directory;
   }
-  if (!is_path) throw std::runtime_error("there is no model \"" + model + "\"" + suggestion(model, models_in(directories)));
+  if (!is_path)
+    throw std::runtime_error("there is no model \"" + model + "\"" + suggestion(model, models_in(directories)));
   throw std::runtime_error("there is no file " + file + " in " + (tried.empty() ? "any folder" : tried) +
                            suggestion(fs::path(model).stem().string(), models_in(directories)));
 }

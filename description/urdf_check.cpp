@@ -39,8 +39,9 @@ std::string missing_number(const XMLElement& element, const Numbers& rule, const
   const std::string own(text);
   const auto first = own.find_first_not_of(" \t\r\n"), last = own.find_last_not_of(" \t\r\n");
   const std::string value = own.substr(first, last - first + 1);
-  return owner + ": <" + rule.element + "> has the text " + (inside ? "of <" + std::string(rule.attribute) + "> " : "") +
-         "\"" + value + "\", as in SDF; expected <" + rule.element + " " + rule.attribute + "=\"" + value + "\"/>";
+  return owner + ": <" + rule.element + "> has the text " +
+         (inside ? "of <" + std::string(rule.attribute) + "> " : "") + "\"" + value + "\", as in SDF; expected <" +
+         rule.element + " " + rule.attribute + "=\"" + value + "\"/>";
 }
 
 void check_numbers(const Source& source, const XMLElement& element, const std::string& owner) {
@@ -50,7 +51,8 @@ void check_numbers(const Source& source, const XMLElement& element, const std::s
     const std::string what = owner + ": <" + rule.element + "> " + rule.attribute;
     const std::string expected = rule.count == 1 ? "a number" : std::to_string(rule.count) + " numbers";
     if (!text && rule.needed)
-      source.fail(element.GetLineNum(), missing_number(element, rule, owner, what + " is missing; expected " + expected));
+      source.fail(element.GetLineNum(),
+                  missing_number(element, rule, owner, what + " is missing; expected " + expected));
     if (!text) continue;
     const auto values = parse_numbers(text);
     if (!values || values->size() != rule.count) {

@@ -93,8 +93,8 @@ std::string as_attribute(const XMLElement& element, const XMLElement& child) {
     std::vector<std::string> numbers;
     for (std::string word; words >> word;) numbers.push_back(word);
     if (numbers.size() != 6) return "expected <origin xyz=\"X Y Z\" rpy=\"ROLL PITCH YAW\"/>";
-    return "expected <origin xyz=\"" + numbers[0] + ' ' + numbers[1] + ' ' + numbers[2] + "\" rpy=\"" + numbers[3] + ' ' +
-           numbers[4] + ' ' + numbers[5] + "\"/>";
+    return "expected <origin xyz=\"" + numbers[0] + ' ' + numbers[1] + ' ' + numbers[2] + "\" rpy=\"" + numbers[3] +
+           ' ' + numbers[4] + ' ' + numbers[5] + "\"/>";
   }
   return "expected <" + std::string(element.Name()) + ' ' + name + "=\"" + text + "\"/>";
 }

@@ -155,8 +155,9 @@ void parse_xml(const Source& source, const std::string& text, tinyxml2::XMLDocum
                           (text.find("=\u201C") != std::string::npos || text.find("=\u201D") != std::string::npos ||
                            text.find("=\u2019") != std::string::npos || text.find("=\u201E") != std::string::npos);
   if (has_quotes)
-    source.fail(line, "is not XML: a value stands in typographic quotes, as word processors and web pages have them; "
-                      "expected straight ones: NAME=\"VALUE\"");
+    source.fail(line,
+                "is not XML: a value stands in typographic quotes, as word processors and web pages have them; "
+                "expected straight ones: NAME=\"VALUE\"");
   if (error != tinyxml2::XML_SUCCESS) source.fail(line, "is not XML: " + words(document));
   if (!document.RootElement()) source.fail(1, "is not URDF; expected <robot>");
   if (const auto* second = document.RootElement()->NextSiblingElement())

@@ -112,8 +112,8 @@ namespace {
 struct OfNetworks {
   const char *quantity, *readers;
 };
-constexpr OfNetworks of_networks[] = {
-    {"emission", "network.wifi, network.lrwpan or network.bluetooth"}, {"pan", "network.lrwpan"}};
+constexpr OfNetworks of_networks[] = {{"emission", "network.wifi, network.lrwpan or network.bluetooth"},
+                                      {"pan", "network.lrwpan"}};
 
 // Of what only some networks read: `the network of this world, network.ideal (world.xml:8:3), does not read, so that it
 // has no effect; expected network.wifi`; "" for any other quantity, and where there is no network.
@@ -150,8 +150,9 @@ std::vector<std::string> Linker::unread() const {
       result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which " +
                        (unheard.empty() ? "nobody reads" : unheard) +
                        (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world"
-                        : unheard.empty() ? "; muster describe " + by.instance->declared().plugin + " says what it is for"
-                                          : ""));
+                        : unheard.empty()
+                            ? "; muster describe " + by.instance->declared().plugin + " says what it is for"
+                            : ""));
     }
   }
   return result;

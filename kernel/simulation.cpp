@@ -117,10 +117,10 @@ std::vector<std::unique_ptr<Instance>> Simulation::make_planned() {
                                       [&](const auto& each) { return each->name() == change.instance; });
         const uint32_t phase = library_of(declared)->plugins().back().phase;
         if (change.kind != PluginChange::Kind::swap || now == instances_.end() || (*now)->phase() == phase) throw;
-        throw invalid(declared.place,
-                      quote(change.instance) + " is of the phase " + phase_name((*now)->phase()) + ", and " +
-                          declared.plugin + " of " + phase_name(phase) + "; expected a plugin of " +
-                          phase_name((*now)->phase()) + like_of((*now)->declared().plugin, around_.search_path));
+        throw invalid(declared.place, quote(change.instance) + " is of the phase " + phase_name((*now)->phase()) +
+                                          ", and " + declared.plugin + " of " + phase_name(phase) +
+                                          "; expected a plugin of " + phase_name((*now)->phase()) +
+                                          like_of((*now)->declared().plugin, around_.search_path));
       }
     }
   }

@@ -27,9 +27,9 @@ class TableTimes {
     const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
                              : first > since_1970      ? "; are these seconds since 1970? expected "
                                                        : "; expected ";
-    k.event("warning: " + rows_.at(row) + what + " from t = " + print(first) + " to " +
-            print(last) + " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit +
-            "seconds of the run" + (first > since_1970 ? ": the time less that of its start" : ""));
+    k.event("warning: " + rows_.at(row) + what + " from t = " + print(first) + " to " + print(last) +
+            " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit + "seconds of the run" +
+            (first > since_1970 ? ": the time less that of its start" : ""));
   }
 
   const TableRows& rows() const { return rows_; }

@@ -72,8 +72,7 @@ std::string level_doubt(std::string_view unit, Compared compared, double value) 
   if (unit == "dBm" && value > loudest && compared != Compared::equal)
     return print_real(value) + " dBm is above every level that arrives, so that this " +
            (compared == Compared::below ? "always" : "never") + " holds; is a minus missing?";
-  if (unit == "rad" && std::abs(value) > turn)
-    return angle_doubt(value);
+  if (unit == "rad" && std::abs(value) > turn) return angle_doubt(value);
   const bool is_measured = unit == "m" || unit == "rad" || unit == "dBm";
   if (compared == Compared::equal && is_measured && value != 0)
     return "a number in " + std::string(unit) + " is seldom exactly " + print_real(value) +

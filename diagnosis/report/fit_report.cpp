@@ -137,7 +137,8 @@ std::string one_distance(const Dataset& data) {
     low = std::min(low, d), high = std::max(high, d);
   }
   if (!(high > 0) || high > apart * low) return "";
-  return fmt::format("; all readings are at {:.3g} to {:.3g} m in plan: expected readings at other distances", low, high);
+  return fmt::format("; all readings are at {:.3g} to {:.3g} m in plan: expected readings at other distances", low,
+                     high);
 }
 
 // Parameters of which the interval reaches from bound to bound: the readings say nothing of them, though some differ by
@@ -159,8 +160,8 @@ void name_unsettled(Fit& fit, const Dataset& data) {
     const Eigen::VectorXd one = fit.slopes.col(of_last), other = fit.slopes.col(of_first);
     const double makes_up = -one.dot(other) / other.squaredNorm();
     const double left = std::sqrt((one + makes_up * other).squaredNorm() / static_cast<double>(one.size()));
-    words = fmt::format("changing {} by 1{}{} together with {} by {:.4g}{}{} changes readings by {:.1g} dB only", last->path,
-                        last->unit.empty() ? "" : " ", last->unit, first->path, makes_up,
+    words = fmt::format("changing {} by 1{}{} together with {} by {:.4g}{}{} changes readings by {:.1g} dB only",
+                        last->path, last->unit.empty() ? "" : " ", last->unit, first->path, makes_up,
                         first->unit.empty() ? "" : " ", first->unit, left);
   }
   fit.not_identifiable.push_back(words + one_distance(data));

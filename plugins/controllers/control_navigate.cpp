@@ -275,7 +275,8 @@ struct ControlNavigate {
     m.now.status = m.way.size() < 2 ? no_way : on_its_way;
     if (m.now.plans == 1 && goals) look_at_goals(k);
     if (m.now.status == no_way && (!was_without || is_news))
-      k.event((m.seen.size() > 0 ? "" : "warning: " + place_of_goal(m)) + why + "no way to " + place_text(to) + ": " + found.fault +
+      k.event((m.seen.size() > 0 ? "" : "warning: " + place_of_goal(m)) + why + "no way to " + place_text(to) + ": " +
+              found.fault +
               (m.seen.size() > 0 ? ", around " + std::to_string(m.seen.size()) + " echoes off the plan" : ""));
     if (m.now.status == on_its_way && (was_without || is_news))
       k.event(why + "plans " + metres(found.length) + " m by " + std::to_string(m.way.size() - 1) + " pieces to " +

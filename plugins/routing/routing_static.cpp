@@ -66,9 +66,7 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
       const Way& row = k[routes][i];
       const auto at = static_cast<Radio>(row.at), next = static_cast<Radio>(row.next);
       const Radio to = is_null(row.to) ? everyone : static_cast<Radio>(row.to);
-      const auto refuse = [&](const std::string& what) {
-        throw BadInput(places.at(i) + name(k, at) + ' ' + what);
-      };
+      const auto refuse = [&](const std::string& what) { throw BadInput(places.at(i) + name(k, at) + ' ' + what); };
       if (next == at) refuse("sends to itself; expected another radio as next");
       if (to == at) refuse("is where the message is for; expected a radio that still has to send it");
       if (!protocol.ways.emplace(std::pair(at, to), next).second)
@@ -106,8 +104,9 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
       const auto next = next_of(way.back(), to);
       if (!next) {
         if (way.size() == 2 && !is_null(k[routes][row].to))  // from further away it is the same fault
-          warn(k, row, what + text(0) + ", which has no row for it, so that each ends there as no_route; expected a row " +
-                           name(k, way.back()) + ',' + name(k, to) + ",NEXT");
+          warn(k, row,
+               what + text(0) + ", which has no row for it, so that each ends there as no_route; expected a row " +
+                   name(k, way.back()) + ',' + name(k, to) + ",NEXT");
         return;
       }
       const auto first = static_cast<std::size_t>(std::find(way.begin(), way.end(), *next) - way.begin());
@@ -117,9 +116,10 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
       loop.insert(static_cast<Radio>(k.rows("radio") + to));  // one of another target is another loop
       const Radio back = way[way.size() - 2];                 // whose row closes it
       if (told.insert(loop).second)
-        warn(k, row_of(k, back, to), what + text(first) + ": a loop, in which each ends as ttl_expired; expected " +
-                                         name(k, back) + ',' + name(k, to) + ",NEXT with another NEXT than " +
-                                         name(k, *next) + ", such as " + name(k, to) + " itself");
+        warn(k, row_of(k, back, to),
+             what + text(first) + ": a loop, in which each ends as ttl_expired; expected " + name(k, back) + ',' +
+                 name(k, to) + ",NEXT with another NEXT than " + name(k, *next) + ", such as " + name(k, to) +
+                 " itself");
       return;
     }
   }

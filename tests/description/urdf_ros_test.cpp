@@ -66,9 +66,10 @@ TEST(UrdfOfRos, DegreesAndPerCentAreDoubted) {
   EXPECT_EQ(warnings_of(joint("0 0 90", "lower='-1' upper='1'")),
             Texts({"4: joint 'j': <origin> rpy=\"0 0 90\": 90 rad is more than a full turn; are these degrees? 90 "
                    "degrees are 1.571 rad"}));
-  EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-90' upper='90'")),
-            Texts({"4: joint 'j': limits of -90 to 90 rad are more than a full turn; are these degrees? 90 degrees are 1.571 "
-                   "rad"}));
+  EXPECT_EQ(
+      warnings_of(joint("0 0 0", "lower='-90' upper='90'")),
+      Texts({"4: joint 'j': limits of -90 to 90 rad are more than a full turn; are these degrees? 90 degrees are 1.571 "
+             "rad"}));
   EXPECT_EQ(warnings_of(joint("0 0 6.283185307179586", "lower='-6.2832' upper='6.2832'")), Texts());
   EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-1000' upper='1000'")), Texts());  // no degrees: it has no limits
   EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-1' upper='1'") +

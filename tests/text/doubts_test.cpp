@@ -9,8 +9,10 @@ TEST(Doubts, AnglesBeyondATurnLookLikeDegrees) {
   EXPECT_EQ(angle_doubt(90), "90 rad is more than a full turn; are these degrees? 90 degrees are 1.5708 rad");
   EXPECT_EQ(angle_doubt(-180), "-180 rad is more than a full turn; are these degrees? -180 degrees are -3.1416 rad");
   EXPECT_EQ(angle_doubt(6.28), "");
-  EXPECT_EQ(unit_doubt("heading", "rad", 45), "45 rad is more than a full turn; are these degrees? 45 degrees are 0.7854 rad");
-  EXPECT_EQ(unit_doubt("w", "rad/s", 90), "90 rad/s is 14.32 turns a second; are these degrees? 90 degrees a second are 1.571 rad/s");
+  EXPECT_EQ(unit_doubt("heading", "rad", 45),
+            "45 rad is more than a full turn; are these degrees? 45 degrees are 0.7854 rad");
+  EXPECT_EQ(unit_doubt("w", "rad/s", 90),
+            "90 rad/s is 14.32 turns a second; are these degrees? 90 degrees a second are 1.571 rad/s");
   EXPECT_EQ(unit_doubt("w", "rad/s", -10), "");
   EXPECT_EQ(unit_doubt("gyro_range", "rad/s", 1e6), "");
 }

@@ -114,7 +114,8 @@ TEST_F(Xml, RefusesWhatIsNotWellFormed) {
       {"<w a/>", "w.xml:1:4: attribute \"a\" has no value; expected a=\"...\""},
       {"<w a=1/>", "w.xml:1:6: the value of \"a\" is not in quotes; expected a=\"1\""},
       {"<w a=\u201Coffice\u201D/>",
-       "w.xml:1:6: the value of \"a\" stands in typographic quotes, \u201C, as word processors and web pages have them; "
+       "w.xml:1:6: the value of \"a\" stands in typographic quotes, \u201C, as word processors and web pages have "
+       "them; "
        "expected straight ones: a=\"office\""},
       {"<w>\n <a b='1'>\n <a/>\n</w>",
        "w.xml:2:2: <a> is not closed where </w> comes, at 4:1; expected \"/>\" at the end of the tag <a ...>, or </a>"},

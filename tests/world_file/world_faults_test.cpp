@@ -27,13 +27,14 @@ TEST_F(Faults, Fault5MisspeltNames) {
   EXPECT_EQ(
       error_with("<robot name='a'/>"),
       "world.xml:2:1: <robot> has no attribute \"at\", which it needs; expected 3 numbers from -1e+06 to 1e+06 m");
-  EXPECT_EQ(error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
-            "world.xml:2:28: <wheel> stands inside <robot> of line 2, which takes attributes only; expected elements side by "
-            "side in <world>, each closed by \"/>\"");
   EXPECT_EQ(
-      error_with("<a.b><c/></a.b>"),
-      "world.xml:2:6: <c> stands inside <a.b> of line 2, which takes attributes only; expected elements side by side in "
-      "<world>, each closed by \"/>\"");
+      error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
+      "world.xml:2:28: <wheel> stands inside <robot> of line 2, which takes attributes only; expected elements side by "
+      "side in <world>, each closed by \"/>\"");
+  EXPECT_EQ(error_with("<a.b><c/></a.b>"),
+            "world.xml:2:6: <c> stands inside <a.b> of line 2, which takes attributes only; expected elements side by "
+            "side in "
+            "<world>, each closed by \"/>\"");
   EXPECT_EQ(error_with("<record tabel='x'/>"),
             "world.xml:2:1: <record> has no attribute \"table\", which it needs; expected a table's name: "
             "set/row/quantity, or set/*/quantity for all rows");
@@ -89,7 +90,8 @@ TEST_F(Faults, Fault7Units) {
       read_with("<robot name='a' at='0 0 0' heading='90'/>\n<robot name='b' at='0 0 0' heading='-6.28'/>");
   ASSERT_EQ(world.warnings.size(), 1u);
   EXPECT_EQ(world.warnings[0].place.line, 2);
-  EXPECT_EQ(world.warnings[0].message, "attribute \"heading\": 90 rad is more than a full turn; are these degrees? 90 "
+  EXPECT_EQ(world.warnings[0].message,
+            "attribute \"heading\": 90 rad is more than a full turn; are these degrees? 90 "
             "degrees are 1.5708 rad");
   EXPECT_EQ(error_with("<material name='m' loss='-1'/>"),
             "world.xml:2:26: attribute \"loss\": -1 is out of bounds; expected a number from 0 to 100 dB");

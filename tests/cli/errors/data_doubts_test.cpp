@@ -65,8 +65,10 @@ TEST(DataDoubts, OneDistanceSettlesNoExponent) {
   });
   for (const char* parameter : {"l0", "n"})
     EXPECT_THAT(said, testing::ContainsRegex(std::string("radio.multiwall/") + parameter + " +not identifiable"));
-  EXPECT_THAT(said, HasSubstr("not identifiable: changing radio.multiwall/n by 1 together with radio.multiwall/l0 by -4."));
-  EXPECT_THAT(said, HasSubstr(" dB only; all readings are at 2.99 to 3.01 m in plan: expected readings at other distances"));
+  EXPECT_THAT(said,
+              HasSubstr("not identifiable: changing radio.multiwall/n by 1 together with radio.multiwall/l0 by -4."));
+  EXPECT_THAT(said,
+              HasSubstr(" dB only; all readings are at 2.99 to 3.01 m in plan: expected readings at other distances"));
 }
 
 TEST(DataDoubts, AnotherSite) {

@@ -72,7 +72,8 @@ TEST(Fault5, WordsOfTheCommandLineToo) {
   EXPECT_EQ(misspelt.exit, 2);
   EXPECT_THAT(misspelt.err, testing::StartsWith("muster: error: there is no verb \"chekc\"; did you mean \"check\"? "
                                                 "expected one of run, check, "));
-  expect_error(folder.muster({"check"}), 2, "muster check: world is required: the world's folder or file; see muster check --help");
+  expect_error(folder.muster({"check"}), 2,
+               "muster check: world is required: the world's folder or file; see muster check --help");
 }
 
 void expect_numbers_refused(const std::vector<std::string>& environment) {
@@ -107,10 +108,11 @@ TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
   folder.write("world.xml", world_of(R"(<station name="b" at="0 0 1" yaw="90"/>)"));
   const auto outcome = folder.muster({"check", "world.xml"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_EQ(outcome.out,
-            "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees? 90 degrees "
-            "are 1.5708 rad\n"
-            "w: 0 instances, 0 tables; no error, 1 warning\n");
+  EXPECT_EQ(
+      outcome.out,
+      "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees? 90 degrees "
+      "are 1.5708 rad\n"
+      "w: 0 instances, 0 tables; no error, 1 warning\n");
 }
 
 TEST(Fault7, ImpossibleQuantitiesAreRefused) {
