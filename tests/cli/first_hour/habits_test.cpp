@@ -141,6 +141,24 @@ TEST(Habits, ACommandLineOfRos) {
                                           "and no topics; did you mean \"robot/*/pose\"?"));
 }
 
+TEST(Habits, AnImportReadsColumnsWithDotsAndSaysWhatDivisionIs) {
+  const ProgramFolder folder;
+  folder.write("log.csv", "%time,field.x,field.rssi\n1,100,-50\n2,200,-56\n");
+  const std::string map = "tx = \"a\"\nrx = \"b\"\ntx_x[m] = 0\ntx_y[m] = 0\nrx_y[m] = 0\n";
+  const auto import = [&](const std::string& rules) {
+    folder.write("log.map", map + rules);
+    return folder.muster({"import", "log.csv", "--map", "log.map", "--out", "out.csv"});
+  };
+  const auto taken = import("rx_x[m] = 0.01*field.x\nrssi[dBm] = field.rssi\n");
+  EXPECT_EQ(taken.exit, 0) << taken.err;
+  EXPECT_THAT(folder.read("out.csv"), testing::HasSubstr("-56"));
+  expect_error(import("rx_x[m] = 0.01*field.x\nrssi[dBm] = rssi\n"), 2,
+               "log.map:7: log.csv has no column \"rssi\"; expected one of %time, field.x, field.rssi; did you mean "
+               "\"field.rssi\"?");
+  expect_error(import("rssi[dBm] = field.rssi\nrx_x[m] = field.x / 100\n"), 2,
+               "log.map:7: \"field.x / 100\": a rule has no division; expected 0.01*field.x (SCALE*COLUMN + OFFSET)");
+}
+
 TEST(Habits, AMapSaysWhereItIsAndRefusesCornersOutOfOrder) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of("\n<station name=\"base\" at=\"0 0 1\"/>\n<radio.multiwall/>"));
