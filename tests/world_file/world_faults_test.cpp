@@ -116,7 +116,9 @@ TEST_F(Faults, WordsOfOtherSimulatorsAreUnderstood) {
   EXPECT_THAT(error_with("<record topic='/odom'/>"), testing::EndsWith("; is \"topic\" meant for it?"));
   EXPECT_THAT(error_with("<box size='1 1 1'/>"), testing::EndsWith("; did you mean \"wall\"?"));
   EXPECT_THAT(error_with("<plugin name='p'/>"),
-              testing::EndsWith("; a plugin is an element of its own name, such as <physics.simbody/>"));
+              testing::EndsWith(
+                  "; a plugin is an element of its own name, such as <physics.simbody/>, and what a robot's model has, "
+                  "as its drive and its laser, needs none: leave it out"));
   EXPECT_EQ(error("<launch/>"),
             "world.xml:1:1: the root element is <launch>, as in a launch file of ROS; expected <world>");
 }
