@@ -73,10 +73,27 @@ std::string usage_of(const std::vector<DeclaredOption>& options) {
   return result;
 }
 
-// "until=5" for --until 5; "--set steer/speed 0.1" for steer/speed=0.1.
+// "until=5" for --until 5, as is ROS's "until:=5"; "--set steer/speed 0.1" for steer/speed=0.1.
 std::string too_many(const CLI::App& app, const std::string& word) {
   std::string hint;
-  const std::string name = "--" + word.substr(0, word.find('='));
+  const auto equals = word.find('='), ros = word.find(":=");
+  const bool is_ros = ros != word.npos;
+  const std::string name = "--" + word.substr(0, is_ros ? ros : equals);
+  if (is_ros) {
+    std::vector<std::string> options;
+    for (const CLI::Option* each : app.get_options())
+      for (const auto& long_name : each->get_lnames()) options.push_back("--" + long_name);
+    const std::string key = word.substr(0, ros), value = word.substr(ros + 2);
+    const bool is_there = std::find(options.begin(), options.end(), name) != options.end();
+    const std::string near = did_you_mean(name, options);
+    const bool may_set = std::find(options.begin(), options.end(), "--set") != options.end();
+    return quote(word) + " is an argument of ROS, which muster has not" +
+           (is_there        ? "; did you mean " + name + ' ' + value + "?"
+            : !near.empty() ? near + " (" + name.substr(2) + " is no option)"
+            : may_set       ? "; expected options, and parameters of plugins as --set PATH=VALUE, such as --set " +
+                            (key.find('/') == key.npos ? "INSTANCE/" + key : key) + '=' + value
+                      : "; expected options such as --help");
+  }
   for (const CLI::Option* each : app.get_options()) {
     if (each->check_name("--set") && each->count() > 0 && each->results().back().find('=') == std::string::npos)
       hint = "; did you mean --set " + each->results().back() + "=" + word + "?";
@@ -175,7 +192,8 @@ void CommandLine::parse(const Arguments& arguments) {
     if (words.size() == 1 && option.starts_with("--") && !words[0].starts_with("-"))
       refuse(quote(words[0]) + " is one word too many, and " + option + " is missing; did you mean " + option + " " +
              words[0] + "?");
-    refuse(what);
+    const CLI::Option* missing = app_->get_option_no_throw(option);
+    refuse(what + (missing && !missing->get_description().empty() ? ": " + missing->get_description() : ""));
   } catch (const CLI::ArgumentMismatch& e) {
     const std::string what = e.what();
     const auto once = what.find(": At Most 1 required");

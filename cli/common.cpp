@@ -88,7 +88,13 @@ volatile std::sig_atomic_t stop = 0;
 bool interrupted() { return stop != 0; }
 void watch_interrupt() {
   struct sigaction action {};
-  action.sa_handler = [](int) { stop = 1; };
+  action.sa_handler = [](int) {
+    stop = 1;
+    static constexpr char note[] =
+        "\nmuster: note: interrupted; it ends after the present step, and a second Ctrl-C "
+        "ends it at once\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, note, sizeof note - 1);
+  };
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends at once
   sigaction(SIGINT, &action, nullptr);
 }

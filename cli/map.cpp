@@ -2,8 +2,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <muster/tables.hpp>
+#include <tuple>
 
 #include "cli/pose_angles.hpp"
 #include "diagnosis/radio/links/floor_plan.hpp"
@@ -34,6 +36,33 @@ struct MapWords {
   bool drawn = false, json = false;
 };
 
+std::string numbers(const std::vector<double>& values) {
+  std::string result;
+  for (const double v : values) result += (result.empty() ? "" : " ") + print_real(v);
+  return result;
+}
+
+// Refuses corners that are not in order: mostly X0 X1 Y0 Y1, as other programs have them.
+void check_area(const std::vector<double>& area) {
+  const auto [x0, y0, x1, y1] = std::tuple(area[0], area[1], area[2], area[3]);
+  if (x0 < x1 && y0 < y1) return;
+  const auto told = [](const std::string& name, double low, double high) {
+    return low == high ? name + "0 and " + name + "1 are both " + print_real(low)
+                       : name + "0 = " + print_real(low) + " is above " + name + "1 = " + print_real(high);
+  };
+  const bool is_exchanged = x0 < y0 && x1 < y1;  // taken as X0 X1 Y0 Y1
+  const std::vector<double> meant =
+      is_exchanged ? std::vector<double>{x0, x1, y0, y1}
+                   : std::vector<double>{std::min(x0, x1), std::min(y0, y1), std::max(x0, x1), std::max(y0, y1)};
+  const bool has_area = meant[0] < meant[2] && meant[1] < meant[3];
+  throw Error(Exit::invalid_input, "--area: " + numbers(area) + ": " +
+                                       (x0 < x1 ? told("Y", y0, y1) : told("X", x0, x1)) +
+                                       "; expected X0 Y0 X1 Y1, two corners, X0 < X1 and Y0 < Y1" +
+                                       (has_area ? "; did you mean --area " + numbers(meant) + "?" +
+                                                       (is_exchanged ? " (from its order X0 X1 Y0 Y1)" : "")
+                                                 : ""));
+}
+
 MapWords words_of(const Arguments& arguments) {
   CommandLine line(
       "map",
@@ -59,6 +88,7 @@ MapWords words_of(const Arguments& arguments) {
   words.at = real_of(at, "--at");
   words.height = real_of(height, "--height");
   for (const std::string& one : area) words.area.push_back(real_of(one, "--area"));
+  if (!words.area.empty()) check_area(words.area);
   return words;
 }
 
@@ -79,17 +109,6 @@ struct Grid {
     return y0 + (static_cast<double>(row) + 0.5) * cell;
   }
 };
-
-// Two corners of which one coordinate is the same: mostly X0 X1 Y0 Y1.
-std::string areas_fault(const std::vector<double>& area) {
-  if (area.size() != 4) return "the plan has no width or no height";
-  std::string given;
-  for (const double v : area) given += (given.empty() ? "" : " ") + print_real(v);
-  return given + ": " +
-         (area[0] == area[2] ? "X0 and X1 are both " + print_real(area[0])
-                             : "Y0 and Y1 are both " + print_real(area[1])) +
-         "; expected X0 Y0 X1 Y1, two corners";
-}
 
 std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
   expect_channel(run);
@@ -140,7 +159,8 @@ Grid grid_of(const pic::FloorPlan& plan, const std::vector<Sender>& senders, con
     add(words.area[0], words.area[1]), add(words.area[2], words.area[3]);
   }
   const double width = x.range().span(), height = y.range().span();
-  if (!(width > 0 && height > 0)) throw Error(Exit::invalid_input, "--area: " + areas_fault(words.area));
+  if (!(width > 0 && height > 0))
+    throw Error(Exit::invalid_input, "--area: the plan has no width or no height; expected X0 Y0 X1 Y1");
   const double cell = std::max(width, height) / words.cells;
   const auto count = [&](double length) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(length / cell - 1e-9)));
@@ -212,6 +232,30 @@ pic::Figure figure_of(const std::string& world, const Sender& sender, const std:
                       .layers = {std::move(cells), std::move(plan)}}}};
 }
 
+// Metres, without the rounding of sums of cells.
+double shown(double metres) { return std::round(metres * 1e3) / 1e3 + 0.0; }
+
+// What is said of a receiver far above all that the world has; "" of any other.
+std::string doubt_of_height(const Simulation& run, const std::vector<Sender>& senders, double height) {
+  constexpr double plainly = 20;  // m, above all
+  double top = 0;
+  for (const Sender& s : senders) top = std::max(top, s.at.z);
+  for (const RowDeclaration& row : run.world().rows) {
+    for (const StoredValues& given : row.values) {
+      if (given.table != "wall/shape") continue;
+      std::array<double, 8> wall{};
+      given.store ? given.store(given.values.data(), wall.data())
+                  : static_cast<void>(
+                        std::copy_n(given.values.begin(), std::min(given.values.size(), wall.size()), wall.begin()));
+      top = std::max(top, wall[4] + wall[5]);
+    }
+  }
+  if (height < 0) return "--height: " + print_real(height) + " m is below the floor; expected metres above it";
+  if (height <= top + plainly) return "";
+  return "--height: " + print_real(height) + " m is above everything, which reaches up to " + print_real(shown(top)) +
+         " m; is this centimetres? " + print_real(height) + " cm are " + print_real(height / 100) + " m";
+}
+
 pic::Range range_of(const std::vector<double>& map) {
   pic::Extent extent;
   for (const double v : map) extent.add(v);
@@ -236,6 +280,7 @@ int run_map(const Arguments& arguments) {
   const std::vector<Sender> senders = senders_of(run, words);
   const pic::FloorPlan plan = plan_of(run);
   const Grid grid = grid_of(plan, senders, words);
+  const std::string above = doubt_of_height(run, senders, words.height);
   const auto radios = names_of(run, "radio");
   std::string receiver = "probe";
   while (std::find(radios.begin(), radios.end(), receiver) != radios.end()) receiver += '_';
@@ -245,6 +290,7 @@ int run_map(const Arguments& arguments) {
   if (failed) throw Error(Exit::io, words.out + ": " + failed.message());
   Json json{{"world", run.world().name},    {"cell_m", grid.cell},      {"cells", {grid.width, grid.height}},
             {"from_m", {grid.x0, grid.y0}}, {"radios", Json::object()}, {"files", Json::array()}};
+  if (!above.empty()) json["warnings"] = Json::array(), json["warnings"].push_back(above);
   const auto wrote = [&](const fs::path& file) { json["files"].push_back(file.string()); };
   std::vector<std::vector<double>> maps;
   try {
@@ -269,7 +315,10 @@ int run_map(const Arguments& arguments) {
   wrote(fs::path(words.out) / "map.csv");
   write_table(senders, maps, grid, fs::path(words.out) / "map.csv");
   if (words.json) return fmt::print("{}\n", json.dump(2)), 0;
-  fmt::print("{}: {} x {} cells of {:.3g} m\n", run.world().name, grid.width, grid.height, grid.cell);
+  if (!above.empty()) fmt::print("warning: {}\n", above);
+  fmt::print("{}: {} x {} cells of {:.3g} m, x {} to {}, y {} to {} m\n", run.world().name, grid.width, grid.height,
+             grid.cell, print_real(shown(grid.x0)), print_real(shown(grid.x0 + grid.cell * double(grid.width))),
+             print_real(shown(grid.y0)), print_real(shown(grid.y0 + grid.cell * double(grid.height))));
   for (const auto& [name, r] : json["radios"].members())
     fmt::print("  {:<16} {:.1f} to {:.1f} dBm\n", name, r["lowest_dbm"].real(), r["highest_dbm"].real());
   for (const Json& file : json["files"].elements()) fmt::print("  wrote {}\n", file.text());

@@ -259,7 +259,7 @@ std::optional<rm::Route> wanted_way(const World& world, const PlannedRobot& robo
   constexpr double largest = 10;  // m, of a robot
   const bool is_large = made.obstacles.radius() > largest;
   const std::string large = is_large ? "; is the radius in millimetres? expected metres" : "";
-  if (!words.path.empty()) throw Error(Exit::invalid_input, "--path: " + way.fault + large);
+  if (!words.path.empty()) throw Error(Exit::invalid_input, "--to: " + way.fault + large);
   warnings.push_back("--to: " + way.fault);
   return {};
 }

@@ -118,6 +118,12 @@ Json outcome_of(const Simulation& run) {
   return json;
 }
 
+// What is told before the first tick and is no note is a warning, as muster check says.
+std::string with_kind(const Event& event) {
+  const bool has_kind = event.message.starts_with("note: ") || event.message.starts_with("warning: ");
+  return (event.tick > 0 || has_kind ? "" : "warning: ") + event.message;
+}
+
 // `pace`: simulated time over time that passed; not in the JSON, which is the same each time.
 void print_outcome(const Simulation& run, const RunWords& words, const Digests& digests,
                    const std::vector<std::filesystem::path>& files, double pace) {
@@ -137,7 +143,7 @@ void print_outcome(const Simulation& run, const RunWords& words, const Digests& 
   if (pace > 0) fmt::print("  {:.{}f} times real time\n", pace, pace < 10 ? 1 : 0);
   for (const auto& event : run.events())
     fmt::print("  t = {:.9g} s  {}{}{}\n", static_cast<double>(event.tick) * run.world().dt, event.instance,
-               event.instance.empty() ? "" : ": ", event.message);
+               event.instance.empty() ? "" : ": ", with_kind(event));
   for (const auto& [instance, tables] : json["observed"].members()) {
     for (const auto& [table, cells] : tables.members()) {
       for (const auto& [column, value] : cells.members())
@@ -346,8 +352,8 @@ int run_swap(const Arguments& arguments) {
   RunWords words;
   std::vector<std::string> attributes;
   declare(line, words);
-  line.option("--at", words.swap_at, "when, in seconds").required();
-  line.option("--instance", words.swap.instance, "the instance").required();
+  line.option("--at", words.swap_at, "when, in seconds of the run, such as 5").required();
+  line.option("--instance", words.swap.instance, "the instance, by its name in the world, such as physics").required();
   line.option("--plugin", words.swap.plugin.plugin, "its new plugin, such as physics.planar").required();
   line.option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
   line.parse(arguments);

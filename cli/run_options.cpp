@@ -47,7 +47,7 @@ World world_of(const std::string& path, const RunOptions& words) {
       throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
     world.seed = static_cast<uint64_t>(*seed);
   }
-  for (const auto& table : words.record) world.records.push_back({table, 1, {}});
+  for (const auto& table : words.record) world.records.push_back({table, 1, {"--record"}});
   if (!words.record.empty() && words.out.empty() && !words.has_log)
     throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
   return world;

@@ -25,13 +25,55 @@ std::vector<std::string> models_in(const std::vector<std::string>& directories) 
   return names;
 }
 
-// The nearest name; all, where none is near.
+// Robots of others, by words of their names, and the model that is most like them.
+struct Alike {
+  const char *foreign, *here;
+};
+constexpr Alike alike[] = {{"burger", "waffle"},     {"turtlebot", "waffle"},      {"turtlebot2", "waffle"},
+                           {"turtlebot3", "waffle"}, {"turtlebot4", "waffle"},     {"jackal", "husky"},
+                           {"pioneer3at", "husky"},  {"warthog", "husky"},         {"iris", "hummingbird"},
+                           {"x500", "hummingbird"},  {"quadrotor", "hummingbird"}, {"drone", "hummingbird"},
+                           {"racecar", "f1tenth"},   {"hexapod", "rdk"},           {"rhex", "rdk"},
+                           {"box", "crate"},         {"diffbot", "scarab"},        {"pioneer2dx", "scarab"}};
+
+// The model that is a word of the name, as "husky" of "husky_a200", or that is like it; "" where there is none.
+std::string by_word(const std::string& model, const std::vector<std::string>& names) {
+  const auto is_there = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::vector<std::string> words;
+  for (std::size_t from = 0, to = 0; from <= model.size(); from = to + 1) {
+    to = std::min(model.find_first_of("_-./: ", from), model.size());
+    words.push_back(model.substr(from, to - from));
+  }
+  for (const std::string& word : words)
+    if (is_there(word)) return word;
+  for (const std::string& word : words) {
+    for (const auto& [foreign, here] : alike)
+      if (word == foreign && is_there(here)) return here;
+  }
+  return "";
+}
+
+// The nearest by sense or by letters, and all.
 std::string suggestion(const std::string& model, const std::vector<std::string>& names) {
-  std::string near = nearest(model, names);
-  if (!near.empty() || names.empty()) return near;
+  const std::string like = by_word(model, names);
+  const std::string near = like.empty() ? nearest(model, names) : "; did you mean \"" + like + "\"?";
   std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "; expected one of " : ", ") + name;
-  return all + ", or the path of a .urdf file";
+  for (const std::string& name : names) all += (all.empty() ? "one of " : ", ") + name;
+  return near + (near.empty() ? "; expected " : " expected ") +
+         (all.empty() ? "a URDF file" : all + ", or a URDF file") + ", such as \"" +
+         fs::path(model).filename().string() + ".urdf\"";
+}
+
+// Kinds of files that are no description here, by their ends.
+std::string of_other_kind(const std::string& model) {
+  const std::string end = fs::path(model).extension().string();
+  if (end == ".sdf" || end == ".world") return "SDF";
+  if (end == ".usd" || end == ".usda" || end == ".usdz") return "USD";
+  if (end == ".proto" || end == ".wbt") return "a file of Webots";
+  if (end == ".stl" || end == ".dae" || end == ".obj" || end == ".glb") return "a mesh";
+  return "";
 }
 
 // The same directories with those of the world's folder first, which come last: a folder and its "models" stay
@@ -57,13 +99,19 @@ bool is_path_of_a_file(const std::string& model) {
 std::string find_model(const std::string& model, const std::vector<std::string>& directories) {
   if (fs::path(model).extension() == ".xacro") {
     const std::string made = fs::path(model).stem().string();
-    throw std::runtime_error("model '" + model + "' is xacro, not URDF; run xacro first: xacro " + model + " > " +
+    throw std::runtime_error(model + " is xacro, not URDF; run xacro first: xacro " + model + " > " +
                              (fs::path(made).extension() == ".urdf" ? made : made + ".urdf"));
   }
   const bool is_path = is_path_of_a_file(model);
   const std::string file = is_path ? model : model + ".urdf";
+  if (const std::string kind = of_other_kind(model); !kind.empty())
+    throw std::runtime_error(model + " is " + kind + ", which muster does not read as a robot; expected URDF or MJCF" +
+                             (kind == "a mesh" ? ", in which a mesh may be a shape"
+                                               : ": gz sdf, xacro and CAD "
+                                                 "programs write URDF"));
   if (!is_path && model.find('/') != std::string::npos) {
-    throw std::runtime_error("model '" + model + "' is neither a name nor a path to a .urdf file");
+    throw std::runtime_error("\"" + model + "\" is neither a name nor the path of a .urdf file" +
+                             suggestion(model, models_in(directories)));
   }
   std::string tried;
   for (const std::string& directory : is_path ? own_first(directories) : directories) {
@@ -72,8 +120,10 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
     if (fs::exists(path, ignored)) return path.string();
     tried += (tried.empty() ? "" : ", ") + directory;
   }
-  throw std::runtime_error("model '" + model + "' is not known: no " + file + " in " +
-                           (tried.empty() ? "any directory" : tried) + suggestion(model, models_in(directories)));
+  if (!is_path)
+    throw std::runtime_error("there is no model \"" + model + "\"" + suggestion(model, models_in(directories)));
+  throw std::runtime_error("there is no file " + file + " in " + (tried.empty() ? "any folder" : tried) +
+                           suggestion(fs::path(model).stem().string(), models_in(directories)));
 }
 
 std::string doubt_of_model(const std::string& model, const std::vector<std::string>& directories) {
@@ -92,7 +142,7 @@ std::string doubt_of_model(const std::string& model, const std::vector<std::stri
 }
 
 UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::string>& directories) {
-  const auto find = [&](const std::string& path, const char* attribute, const char* what) -> std::string {
+  const auto find = [&](const std::string& path, const char* what) -> std::string {
     if (path.empty()) return path;
     std::string tried;
     for (const std::string& directory : own_first(directories)) {
@@ -101,9 +151,24 @@ UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::str
       if (fs::exists(here, ignored)) return here.string();
       tried += (tried.empty() ? "" : ", ") + directory;
     }
-    throw std::runtime_error(std::string(attribute) + "=\"" + path + "\": there is no such " + what + " in " + tried);
+    throw std::runtime_error("there is no " + std::string(what) + " " + path + " in " + tried);
   };
-  return {find(declared.packages, "packages", "folder"), find(declared.fittings, "fittings", "file")};
+  return {find(declared.packages, "folder"), find(declared.fittings, "file")};
+}
+
+std::vector<std::string> models_with(const std::string& word, const std::vector<std::string>& directories) {
+  constexpr std::size_t most_bytes = 1u << 20;
+  std::vector<std::string> result;
+  for (const std::string& name : models_in(directories)) {
+    for (const std::string& directory : directories) {
+      const fs::path path = fs::path(directory) / (name + ".urdf");
+      std::error_code ignored;
+      if (!fs::exists(path, ignored) || fs::file_size(path, ignored) > most_bytes) continue;
+      if (read_file(path.string(), most_bytes).find(word) != std::string::npos) result.push_back(name);
+      break;
+    }
+  }
+  return result;
 }
 
 }  // namespace muster::description

@@ -255,6 +255,12 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
 // A model's name that two files have, in words; "" where one has it. The first is read.
 std::string doubt_of_model(const std::string& model, const std::vector<std::string>& directories);
 
+// Names of models whose file has the word in it.
+std::vector<std::string> models_with(const std::string& word, const std::vector<std::string>& directories);
+
+// Names of models whose file has the word in it.
+std::vector<std::string> models_with(const std::string& word, const std::vector<std::string>& directories);
+
 // The attributes `packages` and `fittings` of a robot, with their paths found in the directories; "" stays.
 UrdfSetting find_setting(const UrdfSetting& declared, const std::vector<std::string>& directories);
 

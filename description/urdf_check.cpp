@@ -29,13 +29,30 @@ constexpr Numbers numbers[] = {
     {"limit", "velocity", 1, true},  {"dynamics", "damping", 1, false}, {"dynamics", "friction", 1, false},
 };
 
+// SDF's <mass>5</mass> and <axis><xyz>0 0 1</xyz></axis>, where URDF has an attribute; else the words given.
+std::string missing_number(const XMLElement& element, const Numbers& rule, const std::string& owner,
+                           const std::string& otherwise) {
+  const XMLElement* inside = element.FirstChildElement(rule.attribute);
+  const char* text = inside ? inside->GetText() : element.GetText();
+  const auto values = parse_numbers(text ? text : "");
+  if (!values || values->size() != rule.count) return otherwise;
+  const std::string own(text);
+  const auto first = own.find_first_not_of(" \t\r\n"), last = own.find_last_not_of(" \t\r\n");
+  const std::string value = own.substr(first, last - first + 1);
+  return owner + ": <" + rule.element + "> has the text " +
+         (inside ? "of <" + std::string(rule.attribute) + "> " : "") + "\"" + value + "\", as in SDF; expected <" +
+         rule.element + " " + rule.attribute + "=\"" + value + "\"/>";
+}
+
 void check_numbers(const Source& source, const XMLElement& element, const std::string& owner) {
   for (const Numbers& rule : numbers) {
     if (element.Name() != std::string(rule.element)) continue;
     const char* text = element.Attribute(rule.attribute);
     const std::string what = owner + ": <" + rule.element + "> " + rule.attribute;
     const std::string expected = rule.count == 1 ? "a number" : std::to_string(rule.count) + " numbers";
-    if (!text && rule.needed) source.fail(element.GetLineNum(), what + " is missing; expected " + expected);
+    if (!text && rule.needed)
+      source.fail(element.GetLineNum(),
+                  missing_number(element, rule, owner, what + " is missing; expected " + expected));
     if (!text) continue;
     const auto values = parse_numbers(text);
     if (!values || values->size() != rule.count) {

@@ -51,13 +51,17 @@ class Doubts {
     return parse_number(text ? text : "").value_or(0);
   }
 
+  static std::string in_radians(double degrees) {
+    return print_number(degrees) + " degrees are " + print_number(degrees * 0.017453292519943295) + " rad";
+  }
+
   void angles(const XMLElement& element, const std::string& owner) {
     const char* text = element.Attribute("rpy");
     const auto values = parse_numbers(text ? text : "");
     for (const double angle : values ? *values : std::vector<double>()) {
       if (!(std::abs(angle) > turn)) continue;
       return warn(element, owner + ": <origin> rpy=\"" + text + "\": " + print_number(angle) +
-                               " rad is more than a full turn; are these degrees?");
+                               " rad is more than a full turn; are these degrees? " + in_radians(angle));
     }
   }
 
@@ -69,7 +73,7 @@ class Doubts {
     const double largest = std::max(std::abs(lower), std::abs(upper));
     if (largest > turn && largest <= degrees_of_turn)
       warn(element, owner + ": limits of " + print_number(lower) + " to " + print_number(upper) +
-                        " rad are more than a full turn; are these degrees?");
+                        " rad are more than a full turn; are these degrees? " + in_radians(largest));
   }
 
   void friction(const XMLElement& element) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
+#include <variant>
 
 #include "description/file_text.hpp"
 #include "description/urdf_check.hpp"
@@ -114,6 +115,31 @@ std::vector<std::size_t> find_joints(const Source& source, const XMLElement& ele
   return result;
 }
 
+// Of a joint in the file of the element; 0 where it is not there.
+int line_of_joint(const XMLElement& element, const std::string& name) {
+  const XMLElement* root = element.GetDocument()->RootElement();
+  for (const auto* each = root->FirstChildElement("joint"); each; each = each->NextSiblingElement("joint")) {
+    const char* own = each->Attribute("name");
+    if (own && name == own) return each->GetLineNum();
+  }
+  return 0;
+}
+
+// What else is wrong with a wheel whose cylinder stands about the axis that it has and not about the one it needs.
+std::string lying_flat(const Robot& robot, const Joint& joint, const Eigen::Vector3d& axis) {
+  constexpr double across = 0.1;  // of a unit vector
+  for (const Shape& shape : rigid_shapes(robot, joint.child)) {
+    if (!std::holds_alternative<Cylinder>(shape.geometry)) continue;
+    const Eigen::Vector3d own = shape.pose.linear().col(2);
+    if (own.cross(axis).norm() < across) return "";
+    const bool is_upright = own.cross(Eigen::Vector3d::UnitZ()).norm() < across;
+    const bool is_about_y = axis.cross(Eigen::Vector3d::UnitY()).norm() < across;
+    return std::string(", and its cylinder along that axis, for it lies flat") +
+           (is_upright && is_about_y ? ": rpy=\"1.5708 0 0\" in the <origin> of its <collision> and <visual>" : "");
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string doubt_of_place(const XMLElement& element, const char* width, double is, double expected) {
@@ -206,17 +232,25 @@ std::size_t find_joint(const Source& source, const XMLElement& element, const ch
 Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element, const Robot& robot,
                                  std::size_t index) {
   const Joint& joint = robot.joints[index];
-  const int line = element.GetLineNum();
-  const std::string what = tag(element) + "joint '" + joint.name + "' ";
-  if (joint.kind != JointKind::continuous) source.fail(line, what + "is not continuous");
+  int line = element.GetLineNum();
+  std::string what = tag(element) + "joint '" + joint.name + "' ";
+  if (const int own = line_of_joint(element, joint.name); own > 0) {  // else it is of another file
+    what = "joint '" + joint.name + "', a wheel of " + tag(element) + "(line " + std::to_string(line) + "), ";
+    line = own;
+  }
+  if (joint.kind != JointKind::continuous)
+    source.fail(line, what + "is " + law_of(joint.kind).name + "; expected type=\"continuous\"");
   const auto carrier = frame_on_body(robot, joint.parent);
   if (!carrier) source.fail(line, what + "is not on the robot's body: a joint between them moves");
   const Eigen::Isometry3d frame = *carrier * joint.origin;
   const Eigen::Vector3d axis = frame.linear() * joint.axis;
   if (!(axis - Eigen::Vector3d::UnitY()).isZero(axis_tolerance)) {
     const double off = std::atan2(axis.cross(Eigen::Vector3d::UnitY()).norm(), axis.y()) * 180 / 3.141592653589793;
+    const Eigen::Vector3d meant = frame.linear().transpose() * Eigen::Vector3d::UnitY();
+    const auto clean = [](double v) { return print_exactly(std::abs(v) < 1e-4 ? 0 : std::round(v * 1e6) / 1e6 + 0.0); };
     source.fail(line, what + "does not turn about the body's +y axis: its own is " + print_number(off) +
-                          " degrees off; an axis within 1 degree would be turned onto it");
+                          " degrees off; expected <axis xyz=\"" + clean(meant.x()) + " " + clean(meant.y()) + " " +
+                          clean(meant.z()) + "\"/>" + lying_flat(robot, joint, meant));
   }
   return frame.translation();
 }

@@ -1,5 +1,6 @@
 // Checks names of elements and attributes: a misspelt name is an error, not dropped as by urdfdom.
 #include <algorithm>
+#include <sstream>
 
 #include "description/file_text.hpp"
 #include "description/urdf_check.hpp"
@@ -78,11 +79,35 @@ void only_attributes(const Source& source, const XMLElement& element, const Name
   }
 }
 
+namespace {
+
+// What SDF has as an element with a text and URDF as an attribute: `expected <axis xyz="0 0 1"/>`; "" for any other.
+std::string as_attribute(const XMLElement& element, const XMLElement& child) {
+  const auto kind = kinds().find(element.Name());
+  const std::string name = child.Name(), text = child.GetText() ? child.GetText() : "";
+  if (kind == kinds().end() || text.empty()) return "";
+  const Names& attributes = kind->second.attributes;
+  if (name == "pose" || std::find(attributes.begin(), attributes.end(), name) == attributes.end()) {
+    if (name != "pose") return "";
+    std::istringstream words(text);
+    std::vector<std::string> numbers;
+    for (std::string word; words >> word;) numbers.push_back(word);
+    if (numbers.size() != 6) return "expected <origin xyz=\"X Y Z\" rpy=\"ROLL PITCH YAW\"/>";
+    return "expected <origin xyz=\"" + numbers[0] + ' ' + numbers[1] + ' ' + numbers[2] + "\" rpy=\"" + numbers[3] +
+           ' ' + numbers[4] + ' ' + numbers[5] + "\"/>";
+  }
+  return "expected <" + std::string(element.Name()) + ' ' + name + "=\"" + text + "\"/>";
+}
+
+}  // namespace
+
 void only_children(const Source& source, const XMLElement& element, const Names& known, const Names& many) {
   std::set<std::string> seen;
   for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
     const std::string name = child->Name();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
+      if (const std::string remedy = as_attribute(element, *child); !remedy.empty())
+        source.fail(child->GetLineNum(), tag(element) + "has no element <" + name + ">, as in SDF; " + remedy);
       const std::string expected = known.empty() ? "" : "; expected " + listed(known, "<", ">");
       source.fail(child->GetLineNum(),
                   tag(element) + "has no element <" + name + ">" + expected + nearest(name, known));

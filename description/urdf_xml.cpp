@@ -74,6 +74,15 @@ void check_pairs(const Source& source, const std::string& text) {
     const std::string name = text.substr(from, text.find_first_of(" \t\r\n/>", from) - from);
     if (closes && open.empty()) source.fail(line_at(text, at), "is not XML: </" + name + "> closes nothing");
     if (closes && open.back().name != name) {
+      // An element inside which another one's end comes is itself not closed; of several the first is told.
+      const auto same = std::find_if(open.rbegin(), open.rend(), [&](const Open& each) { return each.name == name; });
+      if (same != open.rend()) {
+        const Open& first = *same.base();
+        source.fail(line_at(text, first.at), "is not XML: <" + first.name + "> is not closed where </" + name +
+                                                 "> comes, in line " + std::to_string(line_at(text, at)) +
+                                                 "; expected \"/>\" at the end of the tag <" + first.name +
+                                                 " ...>, or </" + first.name + ">");
+      }
       const auto& [last, start] = open.back();
       source.fail(line_at(text, at), "is not XML: </" + name + "> does not match <" + last + "> of line " +
                                          std::to_string(line_at(text, start)) + "; expected </" + last + ">");
@@ -142,6 +151,13 @@ void parse_xml(const Source& source, const std::string& text, tinyxml2::XMLDocum
   const bool has_all_tags = error == tinyxml2::XML_SUCCESS || error == tinyxml2::XML_ERROR_PARSING ||
                             error == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
   if (has_all_tags) check_pairs(source, text);
+  const bool has_quotes = error == tinyxml2::XML_ERROR_PARSING_ATTRIBUTE &&
+                          (text.find("=\u201C") != std::string::npos || text.find("=\u201D") != std::string::npos ||
+                           text.find("=\u2019") != std::string::npos || text.find("=\u201E") != std::string::npos);
+  if (has_quotes)
+    source.fail(line,
+                "is not XML: a value stands in typographic quotes, as word processors and web pages have them; "
+                "expected straight ones: NAME=\"VALUE\"");
   if (error != tinyxml2::XML_SUCCESS) source.fail(line, "is not XML: " + words(document));
   if (!document.RootElement()) source.fail(1, "is not URDF; expected <robot>");
   if (const auto* second = document.RootElement()->NextSiblingElement())

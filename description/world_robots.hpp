@@ -25,7 +25,7 @@ class WorldRobots {
   // For constructors: the kernel gives models during setup only. Each model is read once. Throws BadInput naming it.
   WorldRobots(const Setup& setup, Meshes meshes) {
     const muster_host* host = setup.host();
-    std::vector<std::string> directories;
+    std::vector<std::string>& directories = directories_;
     for (uint32_t i = 0; const char* directory = host->search_path(host, i); ++i) {
       directories.push_back(directory);
       directories.push_back(std::string(directory) + "/models");
@@ -102,25 +102,57 @@ class WorldRobots {
 
   std::size_t size() const { return robots_.size(); }
 
+  // For constructors of plugins that need a robot's laser: throws BadInput that says what would give it one.
+  void require_laser(const Setup& setup, double row) const {
+    const auto number = static_cast<std::size_t>(row);
+    const Robot* robot = of(row + 1);
+    if (robot && !robot->sensors.empty() && robot->sensors[0].laser.max_range > 0) return;
+    const muster_host* host = setup.host();
+    const std::string name = host->row_name(host, "robot", static_cast<uint32_t>(number));
+    const std::string place = setup.text("robot/" + name + "/place"), model = setup.text("robot/" + name + "/model");
+    std::string have;
+    for (const std::string& each : models_with("<ray>", directories_)) have += (have.empty() ? "" : ", ") + each;
+    throw BadInput("the model \"" + model + "\" of robot \"" + name + "\" (" + place + ") has no laser" +
+                   (robot && !robot->sensors.empty() ? " with a range" : "") +
+                   "; expected fittings=\"FILE\" at the robot, with a <sensor> with a <ray> and, in <muster>, <laser "
+                   "sensor=\"...\" min_range=\"...\" max_range=\"...\"/>" +
+                   (have.empty() ? "" : ", or a model that has one: " + have));
+  }
+
  private:
   static std::shared_ptr<const Robot> read_one(const muster_host* host, uint32_t row, const std::string& model,
                                                const UrdfSetting& declared, const std::vector<std::string>& directories,
                                                Meshes meshes) {
     std::string file, doubt;
     UrdfSetting setting;
+    const std::string name = host->row_name(host, "robot", row);
+    // Told at the attribute, or at the robot where it has none.
+    const auto refuse = [&](const std::string& attribute, const std::string& what) {
+      const char* place = host->text(host, ("robot/" + name + "/place/" + attribute).c_str());
+      if (!place) place = host->text(host, ("robot/" + name + "/place").c_str());
+      throw BadInput((place ? std::string(place) : "robot '" + name + "'") + ": attribute \"" + attribute +
+                     "\": " + what);
+    };
     try {
       file = find_model(model, directories);
       doubt = doubt_of_model(model, directories);
-      setting = find_setting(declared, directories);
     } catch (const std::runtime_error& wrong) {
-      const std::string name = host->row_name(host, "robot", row);
-      const char* place = host->text(host, ("robot/" + name + "/place").c_str());
-      throw BadInput("robot '" + name + "'" + (place ? " (" + std::string(place) + ")" : "") + ": " + wrong.what());
+      refuse("model", wrong.what());
+    }
+    try {
+      setting.packages = find_setting({declared.packages, ""}, directories).packages;
+    } catch (const std::runtime_error& wrong) {
+      refuse("packages", wrong.what());
+    }
+    try {
+      setting.fittings = find_setting({"", declared.fittings}, directories).fittings;
+    } catch (const std::runtime_error& wrong) {
+      refuse("fittings", wrong.what());
     }
     try {
       auto robot = std::make_shared<const Robot>(read_robot(file, meshes, setting));
       if (!doubt.empty()) detail::warn(host, "robot/" + std::string(host->row_name(host, "robot", row)), doubt);
-      for (const std::string& warning : robot->warnings) host->event(host, warning.c_str());
+      for (const std::string& warning : robot->warnings) host->event(host, ("warning: " + warning).c_str());
       return robot;
     } catch (const std::runtime_error& wrong) {
       throw BadInput(wrong.what());
@@ -128,6 +160,7 @@ class WorldRobots {
   }
 
   std::vector<std::shared_ptr<const Robot>> robots_;
+  std::vector<std::string> directories_;  // in which models are looked for
 };
 
 }  // namespace muster::description

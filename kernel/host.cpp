@@ -106,7 +106,10 @@ struct Host {
     Instance& i = of(host);
     const int found = i.find_param(name);
     if (found >= 0) return i.params_[static_cast<std::size_t>(found)];
-    wrong(i, std::string("asks for the parameter \"") + name + "\", which it does not declare");
+    std::vector<std::string> declared;
+    for (uint32_t p = 0; p < i.plugin_->param_count; ++p) declared.emplace_back(i.plugin_->params[p].name);
+    wrong(i, std::string("asks for the parameter \"") + name + "\", which it does not declare" +
+                 (declared.empty() ? "; it declares none" : "; declared are " + listed(declared)));
     return 0;
   }
 

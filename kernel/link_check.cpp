@@ -106,10 +106,34 @@ bool Linker::is_for_others(const Claimed::By& writer) const {
   return writer.instance->phase() == MUSTER_RADIO && !is_standard && set && set->kind == SetKind::live;
 }
 
+namespace {
+
+// Quantities of radios that plugins of networks read, and which do.
+struct OfNetworks {
+  const char *quantity, *readers;
+};
+constexpr OfNetworks of_networks[] = {{"emission", "network.wifi, network.lrwpan or network.bluetooth"},
+                                      {"pan", "network.lrwpan"}};
+
+// Of what only some networks read: `the network of this world, network.ideal (world.xml:8:3), does not read, so that it
+// has no effect; expected network.wifi`; "" for any other quantity, and where there is no network.
+std::string of_network(const std::string& quantity, const Instance* network) {
+  const auto known = std::find_if(std::begin(of_networks), std::end(of_networks),
+                                  [&](const OfNetworks& each) { return quantity == each.quantity; });
+  if (known == std::end(of_networks) || !network) return "";
+  return "the network of this world, " + network->declared().plugin + " (" + network->place().text() +
+         "), does not read, so that it has no effect; expected " + known->readers;
+}
+
+}  // namespace
+
 // Lists tables written but never read, and fixed rows of the world that no plugin reads.
 std::vector<std::string> Linker::unread() const {
   std::vector<std::string> result;
   std::set<std::string> told;
+  const auto inbox = claimed_.find("inbox/*/message");
+  const Instance* network =
+      inbox == claimed_.end() || inbox->second.writers.empty() ? nullptr : inbox->second.writers[0].instance;
   for (const auto& row : world_.rows) {
     const Set* set = board_.find_set(row.set);
     if (set && set->kind == SetKind::fixed && told.insert(row.set).second && !is_minded(row.set))
@@ -122,10 +146,13 @@ std::vector<std::string> Linker::unread() const {
     for (const auto& by : c.writers) {
       if (!is_for_others(by) || !silent.insert(by.instance).second) continue;
       const Quantity* standard = standard_quantity(standard_, by.get().name);
-      result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which nobody reads" +
-                       (standard && *standard->user
-                            ? "; expected <" + std::string(standard->user) + "/> in the world"
-                            : "; muster describe " + by.instance->declared().plugin + " says what it is for"));
+      const std::string unheard = standard ? "" : of_network(by.get().name.quantity, network);
+      result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which " +
+                       (unheard.empty() ? "nobody reads" : unheard) +
+                       (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world"
+                        : unheard.empty()
+                            ? "; muster describe " + by.instance->declared().plugin + " says what it is for"
+                            : ""));
     }
   }
   return result;

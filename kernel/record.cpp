@@ -64,7 +64,7 @@ TableView recorded(const Simulation& run, const RecordDeclaration& declared) {
     return run.table(declared.table);
   } catch (const Error& e) {
     if (e.exit() != Exit::invalid_input || declared.place.file.empty()) throw;
-    throw invalid(declared.place, std::string("record: ") + e.what());
+    throw invalid(declared.place, (declared.place.line > 0 ? "record: " : "") + std::string(e.what()));
   }
 }
 

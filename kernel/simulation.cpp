@@ -83,6 +83,25 @@ std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration) {
   return std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
 }
 
+namespace {
+
+// `: physics.ode, physics.planar`, the plugins in the folders that begin with the same word; "" where there are none.
+std::string like_of(const std::string& plugin, const Library::SearchPath& folders) {
+  const std::string kind = plugin.substr(0, plugin.find('.')), begin = kind + '_';
+  std::set<std::string> found;
+  for (const auto& folder : folders) {
+    std::error_code none;
+    for (const auto& file : std::filesystem::directory_iterator(folder, none)) {
+      const std::string name = file.path().stem().string();
+      if (file.path().extension() == ".so" && name.starts_with(begin))
+        found.insert(kind + '.' + name.substr(begin.size()));
+    }
+  }
+  return found.empty() ? "" : ": " + listed({found.begin(), found.end()});
+}
+
+}  // namespace
+
 // What the world file plans to insert and to swap in, to be looked at.
 std::vector<std::unique_ptr<Instance>> Simulation::make_planned() {
   std::vector<std::unique_ptr<Instance>> made;
@@ -91,7 +110,18 @@ std::vector<std::unique_ptr<Instance>> Simulation::make_planned() {
       if (change.kind == PluginChange::Kind::remove) continue;
       InstanceDeclaration declared = change.plugin;
       declared.name = change.instance;
-      made.push_back(make(std::move(declared)));
+      try {
+        made.push_back(make(declared));
+      } catch (const Error&) {  // of a plugin of another kind, its attributes are not what is wrong
+        const auto now = std::find_if(instances_.begin(), instances_.end(),
+                                      [&](const auto& each) { return each->name() == change.instance; });
+        const uint32_t phase = library_of(declared)->plugins().back().phase;
+        if (change.kind != PluginChange::Kind::swap || now == instances_.end() || (*now)->phase() == phase) throw;
+        throw invalid(declared.place, quote(change.instance) + " is of the phase " + phase_name((*now)->phase()) +
+                                          ", and " + declared.plugin + " of " + phase_name(phase) +
+                                          "; expected a plugin of " + phase_name((*now)->phase()) +
+                                          like_of((*now)->declared().plugin, around_.search_path));
+      }
     }
   }
   return made;
@@ -236,9 +266,13 @@ std::string Simulation::suggest_table(const std::string& name) const {
   }
   if (of_word.empty()) {
     const std::string meant = of_named_row(name, valid);
-    return meant.empty()
-               ? suggest(name, {valid.begin(), valid.end()})
-               : "did you mean " + quote(meant) + "? expected SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows";
+    if (!meant.empty())
+      return "did you mean " + quote(meant) + "? expected SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows";
+    const std::vector<std::string> all(valid.begin(), valid.end());
+    if (!name.starts_with('/')) return suggest(name, all);
+    const std::string question = did_you_mean(name, all);
+    return "tables are SET/ROW/QUANTITY, and no topics; " + (question.empty() ? "" : question.substr(2) + ' ') +
+           expected_one_of(all);
   }
   std::vector<std::string> words, tables;
   for (const auto& [word, table] : of_word) words.push_back(word);

@@ -245,12 +245,33 @@ std::string unknown_parameter(const std::string& path, const std::vector<Paramet
   return what + expected_one_of(own) + (near.empty() ? "" : "; did you mean " + quote(owner + '/' + near) + "?");
 }
 
+// Of a path that names an attribute which is no number, and stays as it is in a run; "" where it names none.
+std::string fixed_attribute(const std::vector<std::unique_ptr<Instance>>& instances, const std::string& path) {
+  for (const auto& instance : instances) {
+    const int number = instance->name() == owner_of(path) && path.find('/') != path.npos
+                           ? instance->find_param(path.substr(owner_of(path).size() + 1))
+                           : -1;
+    if (number < 0) continue;
+    const auto& param = instance->plugin().params[number];
+    const std::string name = param.name;
+    const std::string what = param.kind == MUSTER_FILE        ? "a file"
+                             : param.kind == MUSTER_REFERENCE ? "the name of a " + std::string(param.text)
+                                                              : "a text";
+    return quote(path) + " is " + what + ", and no parameter: numbers, flags and choices are; expected " + name +
+           "=\"...\" in the world, at " + instance->place().text() + ", or beside this run one with another (muster " +
+           "compare WORLD " + instance->name() + "=" + instance->declared().plugin + ":" + name + "=VALUE)";
+  }
+  return "";
+}
+
 }  // namespace
 
 ParameterInfo Simulation::parameter(const std::string& path) const {
   const auto all = parameters();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& info) { return info.path == path; });
   if (found != all.end()) return *found;
+  if (const std::string fault = fixed_attribute(instances_, path); !fault.empty())
+    throw Error(Exit::invalid_input, fault);
   throw Error(Exit::invalid_input, unknown_parameter(path, all, whose_plugin(world_.instances, owner_of(path))));
 }
 

@@ -18,6 +18,7 @@
 #include "process_guard.hpp"
 #include "registration.hpp"
 #include "text/names.hpp"
+#include "text/synonyms.hpp"
 
 namespace muster {
 
@@ -175,6 +176,13 @@ std::string not_found(const std::string& id, const Library::SearchPath& search_p
     folders.push_back(folder.string());
     for (const std::filesystem::path& file : libraries_in(folder)) ids.push_back(likely_id(file));
   }
+  // Of one kind no two are near for the word that they begin with: sensors.compass is not sensors.camera.
+  const std::string kind = id.substr(0, id.find('.') == id.npos ? 0 : id.find('.') + 1);
+  std::erase_if(ids, [&](const std::string& each) {
+    if (kind.empty() || !each.starts_with(kind) || each.starts_with(id)) return false;
+    const std::string own = id.substr(kind.size());
+    return nearest(own, {each.substr(kind.size())}).empty() && synonym(own, {each}).empty();
+  });
   return fmt::format(
       "{} not found; looked in {}{}", file_name(id),
       folders.empty() ? "no folder: the plugin path is empty" : fmt::format("{}", fmt::join(folders, ", ")),

@@ -96,6 +96,8 @@ void check_param(const muster_plugin& plugin, const muster_param& p) {
 }
 
 void check(const muster_plugin& plugin) {
+  if (plugin.id && *plugin.id && parse_plugin_id(std::string(plugin.id) + "/1").revision == 1)
+    refuse("registers the id \"{}\", without a revision; expected \"{}/1\"", plugin.id, plugin.id);
   if (!plugin.id || parse_plugin_id(plugin.id).revision == 0)
     refuse("registers the id \"{}\"; expected one like \"radio.multiwall/1\"", plugin.id ? plugin.id : "");
   if (plugin.phase < MUSTER_CONTROL || plugin.phase > MUSTER_OBSERVE)

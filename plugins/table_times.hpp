@@ -6,17 +6,16 @@
 #include <muster/plugin.hpp>
 #include <string>
 
+#include "plugins/table_rows.hpp"
+
 namespace muster {
 
 class TableTimes {
  public:
   // `param` is the parameter that names the table's file. For constructors of plugins.
-  TableTimes(const Setup& s, const char* param) {
-    const std::string world = s.text("world/file"), end = s.text("world/until");
+  TableTimes(const Setup& s, const char* param) : rows_(s, param) {
+    const std::string end = s.text("world/until");
     std::from_chars(end.data(), end.data() + end.size(), until_);
-    file_ = s.text(param);
-    const std::size_t folder = file_.rfind('/', 0) == 0 ? std::string::npos : world.rfind('/');
-    if (folder != std::string::npos) file_.insert(0, world, 0, folder + 1);
   }
 
   // Warns once of each call where rows from time `first` to `last` [s] do not meet the run. `row` is the first of them,
@@ -28,19 +27,21 @@ class TableTimes {
     const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
                              : first > since_1970      ? "; are these seconds since 1970? expected "
                                                        : "; expected ";
-    k.event("warning: " + file_ + ":" + std::to_string(row + 2) + ":1: " + what + " from t = " + print(first) + " to " +
-            print(last) + " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit +
-            "seconds of the run" + (first > since_1970 ? ": the time less that of its start" : ""));
+    k.event("warning: " + rows_.at(row) + what + " from t = " + print(first) + " to " + print(last) +
+            " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit + "seconds of the run" +
+            (first > since_1970 ? ": the time less that of its start" : ""));
   }
 
- private:
+  const TableRows& rows() const { return rows_; }
+
   static std::string print(double value) {
     char text[32];
     return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.14g", value))};
   }
 
+ private:
   double until_ = 0;  // [s]
-  std::string file_;
+  TableRows rows_;
 };
 
 }  // namespace muster

@@ -150,6 +150,13 @@ class Function : public InstanceCode {
     for (std::size_t i = 0; i < outs.size(); ++i) fill(parts[i], ports()[outs[i]], call.out[outs[i]]);
   }
 
+  // "v[m/s] w[rad/s]" becomes "v[m/s], w[rad/s]".
+  static std::string with_commas(const std::string& columns) {
+    std::string result;
+    for (const char c : columns) result += c == ' ' ? std::string(", ") : std::string(1, c);
+    return result;
+  }
+
   static void fill(const py::object& value, const Port& port, const muster_out& out) {
     const Array given = numbers(value, port.table);
     const std::size_t count = std::size_t{out.rows} * out.cols;
@@ -158,7 +165,8 @@ class Function : public InstanceCode {
     const bool as_column = !port.one_row && given.ndim() == 1 && out.cols == 1;
     if (!(as_table || as_row || as_column) || static_cast<std::size_t>(given.size()) != count)
       throw std::runtime_error("gives " + shape_text(given) + " for " + port.table + "; expected " +
-                               (port.one_row ? "" : std::to_string(out.rows) + " x ") + std::to_string(out.cols));
+                               (port.one_row ? "" : std::to_string(out.rows) + " x ") + std::to_string(out.cols) +
+                               ": " + with_commas(port.columns));
     // One bit pattern is null; computed ones may have another sign.
     std::transform(given.data(), given.data() + count, out.data, [](double v) { return std::isnan(v) ? null() : v; });
   }

@@ -1,6 +1,8 @@
 #include "roadmap/route.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
 namespace muster::roadmap {
 namespace {
@@ -19,6 +21,22 @@ std::vector<std::uint32_t> joined(const Graph& graph, const Obstacles& obstacles
     if (obstacles.is_free(p, graph.nodes[i], give)) result.push_back(i);
   }
   return result;
+}
+
+// `, which lies outside of the plan (x 0 to 12, y 0 to 6 m)`, where it does: beyond all walls.
+std::string outside(const Obstacles& obstacles, const Point& p) {
+  if (obstacles.blocks().empty()) return "";
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Point low{infinite, infinite}, high{-infinite, -infinite};
+  for (const Block& block : obstacles.blocks()) {
+    for (const Point& end : {block.from, block.to}) {
+      low = {std::min(low.x, end.x), std::min(low.y, end.y)};
+      high = {std::max(high.x, end.x), std::max(high.y, end.y)};
+    }
+  }
+  if (p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y) return "";
+  return ", which lies outside of the plan (x " + text(low.x) + " to " + text(high.x) + ", y " + text(low.y) + " to " +
+         text(high.y) + " m)";
 }
 
 }  // namespace
@@ -41,7 +59,9 @@ Route route(const Graph& graph, const Obstacles& obstacles, const Point& start, 
   for (const std::uint32_t i : joined(graph, obstacles, goal, 0)) joint.edges.push_back({i, to});
   if (obstacles.is_free(start, goal, give)) joint.edges.push_back({from, to});
   const Found found = cheapest(joint, from, to, cost, guide);
-  if (found.nodes.empty()) return refused("no way leads from " + text(start) + " to " + text(goal));
+  if (found.nodes.empty())
+    return refused("no way leads from " + text(start) + outside(obstacles, start) + " to " + text(goal) +
+                   outside(obstacles, goal));
   for (const std::uint32_t i : found.nodes) {
     if (!result.points.empty() && result.points.back() == joint.nodes[i]) continue;
     if (!result.points.empty()) result.length += distance(result.points.back(), joint.nodes[i]);

@@ -24,10 +24,16 @@ constexpr double centimetre = 0.01;          // m
 
 bool is_within(double value, double least, double most) { return value >= least && value <= most; }
 
-// In four digits.
-std::string about(double value) {
+// In so many digits.
+std::string about(double value, int digits = 4) {
   std::array<char, 32> text;
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4).ptr};
+  return {text.data(),
+          std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr};
+}
+
+std::string in_centimetres(double value) {
+  return print_real(value) + " m; is this centimetres? " + print_real(value) + " cm are " + about(value * centimetre) +
+         " m";
 }
 
 std::string in_dbm(double milliwatts) { return about(10 * std::log10(milliwatts)) + " dBm"; }
@@ -36,13 +42,15 @@ std::string in_dbm(double milliwatts) { return about(10 * std::log10(milliwatts)
 
 std::string angle_doubt(double radians) {
   if (!(std::abs(radians) > turn)) return "";
-  return print_real(radians) + " rad is more than a full turn; are these degrees?";
+  return print_real(radians) + " rad is more than a full turn; are these degrees? " + print_real(radians) +
+         " degrees are " + about(radians * degree, 5) + " rad";
 }
 
 std::string unit_doubt(std::string_view name, std::string_view unit, double value) {
   if (unit == "rad") return angle_doubt(value);
   if (unit == "rad/s" && std::abs(value) > fastest && name.find("range") == name.npos)
-    return print_real(value) + " rad/s is " + about(std::abs(value) / turn) + " turns a second; are these degrees?";
+    return print_real(value) + " rad/s is " + about(std::abs(value) / turn) + " turns a second; are these degrees? " +
+           print_real(value) + " degrees a second are " + about(value * degree) + " rad/s";
   if (unit == "dBm" && name.find("power") != name.npos && value > strongest)
     return print_real(value) + " dBm is " + about(std::pow(10, value / 10 - 3)) + " W; is this milliwatts? " +
            print_real(value) + " mW are " + in_dbm(value);
@@ -54,9 +62,9 @@ std::string unit_doubt(std::string_view name, std::string_view unit, double valu
   if (unit == "Hz" && name == "bandwidth" && value > 0 && value < narrowest)
     return print_real(value) + " Hz; is this MHz? " + print_real(value) + " MHz are " + print_real(value) + "e6 Hz";
   if (name == "duty" && value == 0) return "0: it is never on";
-  if (unit == "m" && name == "height" && value > highest) return print_real(value) + " m; is this centimetres?";
+  if (unit == "m" && name == "height" && value > highest) return in_centimetres(value);
   if (unit == "m" && ((name == "thickness" && value > thickest) || (name == "antenna" && std::abs(value) > longest)))
-    return print_real(value) + " m; is this centimetres?";
+    return in_centimetres(value);
   return "";
 }
 
@@ -64,8 +72,7 @@ std::string level_doubt(std::string_view unit, Compared compared, double value) 
   if (unit == "dBm" && value > loudest && compared != Compared::equal)
     return print_real(value) + " dBm is above every level that arrives, so that this " +
            (compared == Compared::below ? "always" : "never") + " holds; is a minus missing?";
-  if (unit == "rad" && std::abs(value) > turn)
-    return angle_doubt(value) + " " + print_real(value) + " degrees are " + about(value * degree) + " rad";
+  if (unit == "rad" && std::abs(value) > turn) return angle_doubt(value);
   const bool is_measured = unit == "m" || unit == "rad" || unit == "dBm";
   if (compared == Compared::equal && is_measured && value != 0)
     return "a number in " + std::string(unit) + " is seldom exactly " + print_real(value) +

@@ -60,9 +60,14 @@ bool is_name(std::string_view text) {
 std::string nearest(std::string_view wrong, const std::vector<std::string>& valid) {
   std::string best;
   std::size_t best_distance = wrong.size() + 1;
+  // Paths of one set are no nearer for the words that all of them begin with.
+  const std::size_t separator = wrong.rfind('/');
+  const std::size_t kind = separator == wrong.npos || separator + 1 == wrong.size() ? 0 : separator + 1;
   for (const std::string& name : valid) {
-    const std::size_t longer = std::max(wrong.size(), name.size());
-    const std::size_t shorter = std::min(wrong.size(), name.size());
+    const bool is_of_kind = name.size() > kind && name.compare(0, kind, wrong.substr(0, kind)) == 0;
+    const std::size_t same = is_of_kind && name.find('/', kind) == name.npos ? kind : 0;
+    const std::size_t longer = std::max(wrong.size(), name.size()) - same;
+    const std::size_t shorter = std::min(wrong.size(), name.size()) - same;
     const std::size_t cut_off = (longer + 1) / 3;
     if (longer - shorter > cut_off) continue;
     const std::size_t d = distance(wrong, name);
@@ -102,6 +107,48 @@ std::string completion(std::string_view wrong, const std::vector<std::string>& v
   return found;
 }
 
+bool is_separator(char c) { return c == '/' || c == '.' || c == ':' || c == '@'; }
+
+std::vector<std::string_view> parts_of(std::string_view path) {
+  std::vector<std::string_view> result;
+  for (std::size_t from = 0, to = 0; to <= path.size(); ++to) {
+    if (to < path.size() && !is_separator(path[to])) continue;
+    if (to > from) result.push_back(path.substr(from, to - from));
+    from = to + 1;
+  }
+  return result;
+}
+
+// Of a path such as "/robot1/scan": the name that means what one of its parts means elsewhere, the last before others,
+// or the shortest that has its last part; "" where there is none.
+std::string by_part(std::string_view wrong, const std::vector<std::string>& valid) {
+  constexpr std::size_t telling = 2;  // letters
+  const auto parts = parts_of(wrong);
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+    const std::string meant = part->size() < telling ? "" : synonym(*part, valid);
+    if (!meant.empty()) return meant;
+  }
+  std::string found;
+  for (const std::string& name : valid) {
+    const auto own = parts_of(name);
+    const bool has_it = !parts.empty() && parts.back().size() >= telling && own.size() > 1 &&
+                        std::find(own.begin(), own.end(), parts.back()) != own.end();
+    if (has_it && (found.empty() || name.size() < found.size())) found = name;
+  }
+  return found;
+}
+
+// The name that a longer one ends in, as "goal_tolerance" does in "tolerance"; "" where there is none.
+std::string last_word(std::string_view wrong, const std::vector<std::string>& valid) {
+  constexpr std::size_t telling = 4;  // letters
+  for (const std::string& name : valid) {
+    if (name.size() >= telling && wrong.size() > name.size() + 1 && wrong.ends_with(name) &&
+        wrong[wrong.size() - name.size() - 1] == '_')
+      return name;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& valid) {
@@ -115,6 +162,8 @@ std::string did_you_mean(std::string_view wrong, const std::vector<std::string>&
         std::string_view("/.").find(name[name.size() - wrong.size() - 1]) != std::string_view::npos)
       found = name;
   }
+  if (found.empty()) found = last_word(wrong, valid);
+  if (found.empty()) found = by_part(wrong, valid);
   return found.empty() ? "" : "; did you mean " + quote(found) + "?";
 }
 

@@ -24,7 +24,8 @@ std::string listed(const std::vector<std::string>& names);
 std::string expected_one_of(const std::vector<std::string>& valid);
 
 // `; did you mean "b"?`: what the word means elsewhere (text/synonyms.hpp), or the name that it is the beginning of, or
-// the nearest name, or the one that ends in it after a slash or a dot; empty if there is none.
+// the nearest name, or the one that ends in it after a slash or a dot, or that has or means a part of it between
+// slashes; empty if there is none.
 std::string did_you_mean(std::string_view wrong, const std::vector<std::string>& valid);
 
 // `expected one of a, b, c; did you mean "b"?`; without the question if nothing is near. Of a long list the question

@@ -102,6 +102,26 @@ std::string hexadecimal(char c) {
   return {'0', 'x', digits[byte >> 4], digits[byte & 15]};
 }
 
+// How a file of another encoding becomes UTF-8: of XML by the one that it declares, else by the likeliest.
+std::string conversion_of(std::string_view text, const std::string& name) {
+  const std::string_view first = text.substr(0, text.find('>'));
+  const std::string_view mark = "encoding=";
+  const auto at = first.starts_with("<?xml") ? first.find(mark) : first.npos;
+  std::string declared;
+  if (at != first.npos && at + mark.size() + 1 < first.size()) {
+    const auto from = at + mark.size() + 1;
+    declared = first.substr(from, first.find(first[from - 1], from) - from);
+  }
+  const auto is_plain = [](char c) { return c == '-' || c == '_' || (c >= '0' && c <= '9') || (c | 32) >= 'a'; };
+  const bool is_other = !declared.empty() && declared.size() < 20 && declared != "UTF-8" && declared != "utf-8" &&
+                        std::all_of(declared.begin(), declared.end(), is_plain);
+  const std::string from = is_other ? declared : "ISO-8859-1";
+  return (is_other ? "the file says encoding=\"" + declared + "\", expected UTF-8: "
+                   : std::string("is it Latin-1, as editors of Windows write? expected UTF-8: ")) +
+         "iconv -f " + from + " -t UTF-8 " + name + " > NEW" +
+         (is_other ? ", and encoding=\"UTF-8\" in its first line" : "");
+}
+
 }  // namespace
 
 Place TextFile::place(std::size_t offset) const {
@@ -132,7 +152,8 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   const std::size_t wrong = first_not_utf8(text);
   if (wrong < text.size()) {
     throw invalid(result.place(wrong), "byte " + std::to_string(wrong + skipped + 1) + " of the file, " +
-                                           hexadecimal(text[wrong]) + ", is not valid UTF-8");
+                                           hexadecimal(text[wrong]) + ", is not valid UTF-8; " +
+                                           conversion_of(text, path.filename().string()));
   }
   return result;
 }

@@ -150,6 +150,12 @@ void TextTable::fail_ragged(std::size_t found) const {
   if (row_starts_.size() == 2 && width_ == 1)
     throw invalid(file_.place(0), "the first line is " + (first.empty() ? "empty" : quote(first)) +
                                       " and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");
+  const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
+  if (found == width_ + 1 && text[end - 1] == ',' &&
+      static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(start),
+                                          text.begin() + static_cast<std::ptrdiff_t>(end), ',')) == width_)
+    throw invalid(file_.place(end - 1), "a comma stands at the end of the row, and makes an empty cell beyond the " +
+                                            std::to_string(width_) + " of the header; expected none there");
   const std::string more = found > width_ ? " or more" : "";
   throw invalid(file_.place(start), "the row has " + std::to_string(found) + more + (found == 1 ? " cell" : " cells") +
                                         "; expected " + std::to_string(width_) +
@@ -204,7 +210,10 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
   if (!found) {
     std::vector<std::string> names;
     for (const TextColumn& column : columns_) names.push_back(column.name);
-    const std::string near = nearest(name, names);
+    // Of a name of two letters every short one is a letter away.
+    constexpr std::size_t telling = 3;
+    std::string near = nearest(name, names);
+    if (name.size() < telling || near.size() < telling) near.clear();
     throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table, which has " + listed(names) +
                                        (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }

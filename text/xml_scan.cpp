@@ -89,7 +89,12 @@ class Scan {
     const std::string what = "the text " + quote(words) + " stands between elements; ";
     std::vector<std::string_view> names;
     for (const Name& each : open_) names.push_back(each.name);
-    const std::string instead = in_place_of_text_ ? in_place_of_text_(names, words) : "";
+    std::string instead;
+    try {
+      if (in_place_of_text_) instead = in_place_of_text_(names, words);
+    } catch (const FaultOfElement& fault) {
+      throw invalid(file_.place(open_.at(fault.depth).at), fault.what);
+    }
     if (!instead.empty()) fail(at_, what + instead);
     fail(at_, what + "expected elements and comments only" +
                   (open_.size() < 2 ? "" : ", and values as attributes: <" + as_attribute(words) + "/>"));
@@ -136,6 +141,24 @@ class Scan {
     return text_.substr(start, at_ - start);
   }
 
+  // An element inside which another one's end comes is itself not closed, as <wall ...> without "/"; of several the
+  // first is told. Where nothing of the name is open, the end is misspelt.
+  [[noreturn]] void fail_end(std::size_t at, const std::string& name) const {
+    const auto same = std::find_if(open_.rbegin(), open_.rend(), [&](const Name& each) { return each.name == name; });
+    const std::string end = "</" + name + ">";
+    if (same == open_.rend()) {
+      const std::string expected(open_.back().name);
+      fail(at, end + " does not match <" + expected + "> of line " + std::to_string(file_.place(open_.back().at).line) +
+                   "; expected </" + expected + ">");
+    }
+    const Name& first = *same.base();
+    const Place there = file_.place(at);
+    const std::string own(first.name);
+    fail(first.at, "<" + own + "> is not closed where " + end + " comes, at " + std::to_string(there.line) + ":" +
+                       std::to_string(there.column) + "; expected \"/>\" at the end of the tag <" + own +
+                       " ...>, or </" + own + ">");
+  }
+
   void scan_end_tag() {
     const std::size_t start = at_;
     at_ += 2;
@@ -144,11 +167,7 @@ class Scan {
     if (!next_is(">")) fail(start, "the tag </" + name + "> is cut off; expected '>'");
     ++at_;
     if (open_.empty()) fail(start, "</" + name + "> closes nothing");
-    if (open_.back().name != name) {
-      const std::string expected(open_.back().name);
-      fail(start, "</" + name + "> does not match <" + expected + "> of line " +
-                      std::to_string(file_.place(open_.back().at).line) + "; expected </" + expected + ">");
-    }
+    if (open_.back().name != name) fail_end(start, name);
     open_.pop_back();
   }
 
@@ -198,6 +217,27 @@ class Scan {
     check_duplicates(tag);
   }
 
+  // A value whose author sees quotes around it is in those of a word processor.
+  [[noreturn]] void fail_quotes(std::string_view name) const {
+    static constexpr std::string_view typographic[] = {"\u201C", "\u201D", "\u201E", "\u2018", "\u2019",
+                                                       "\u00AB", "\u00BB", "\u2033", "\u00B4", "`"};
+    const std::string own(name);
+    for (const std::string_view opens : typographic) {
+      if (!next_is(opens)) continue;
+      const std::size_t from = at_ + opens.size();
+      std::size_t to = text_.find_first_of("<>\r\n", from);
+      for (const std::string_view closes : typographic) to = std::min(to, text_.find(closes, from));
+      const std::string value(text_.substr(from, std::min(to, text_.size()) - from));
+      fail(at_, "the value of " + quote(name) + " stands in typographic quotes, " + std::string(opens) +
+                    ", as word processors and web pages have them; expected straight ones: " + own + "=" +
+                    quote(value));
+    }
+    const std::size_t to = text_.find_first_of(" \t\r\n/>", at_);
+    const std::string_view value = text_.substr(at_, std::min(to, text_.size()) - at_);
+    fail(at_, "the value of " + quote(name) + " is not in quotes; expected " + own + "=" +
+                  (value.empty() ? "\"...\"" : quote(value)));
+  }
+
   void scan_attribute(std::string_view tag) {
     const std::size_t start = at_;
     const std::string_view name = scan_name();
@@ -210,7 +250,7 @@ class Scan {
     if (!next_is("=")) fail(start, "attribute " + quote(name) + " has no value" + expected);
     ++at_;
     skip_space();
-    if (!next_is("\"") && !next_is("'")) fail(at_, "the value of " + quote(name) + " is not in quotes" + expected);
+    if (!next_is("\"") && !next_is("'")) fail_quotes(name);
     const char stops[] = {text_[at_], '<', '\0'};
     const std::size_t value = at_ + 1;
     at_ = text_.find_first_of(stops, value);

@@ -3,6 +3,8 @@
 // not keep.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "text_file.hpp"
@@ -13,6 +15,12 @@ namespace muster {
 struct XmlSpot {
   int line;
   int column;
+};
+
+// Thrown by an InPlaceOfText where not the text is wrong, but an element around it: told at its place.
+struct FaultOfElement {
+  std::size_t depth;  // of the open elements, from 0
+  std::string what;
 };
 
 // In document order: each element's '<', then the name and the value of each of its attributes.

@@ -125,7 +125,47 @@ class Doubts {
          "attribute \"antenna\": it is " + print_real(-at[2] - antenna[2]) + " m below the ground");
   }
 
+  // The corners in turn around their middle, where that makes edges that do not cross; as they are given else.
+  static std::vector<double> in_turn(const std::vector<double>& corners) {
+    double x = 0, y = 0;
+    for (std::size_t i = 0; i < corners.size(); i += 2) x += corners[i] / 4, y += corners[i + 1] / 4;
+    std::vector<std::pair<double, std::size_t>> order;
+    const double first = std::atan2(corners[1] - y, corners[0] - x);
+    for (std::size_t i = 0; i < corners.size(); i += 2) {
+      const double angle = std::atan2(corners[i + 1] - y, corners[i] - x) - first;
+      order.emplace_back(angle < 0 ? angle + 2 * std::acos(-1.0) : angle, i);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<double> result;
+    for (const auto& [angle, i] : order) result.push_back(corners[i]), result.push_back(corners[i + 1]);
+    return result;
+  }
+
+  // True if two edges of the four corners cross in a point that is no end of either.
+  static bool is_crossed(const std::vector<double>& c) {
+    const auto side = [&](std::size_t a, std::size_t b, std::size_t p) {
+      return (c[2 * b] - c[2 * a]) * (c[2 * p + 1] - c[2 * a + 1]) -
+             (c[2 * b + 1] - c[2 * a + 1]) * (c[2 * p] - c[2 * a]);
+    };
+    const auto cross = [&](std::size_t a, std::size_t b, std::size_t p, std::size_t q) {
+      return side(a, b, p) * side(a, b, q) < 0 && side(p, q, a) * side(p, q, b) < 0;
+    };
+    return cross(0, 1, 2, 3) || cross(1, 2, 3, 0);
+  }
+
+  void look_at_corners(const XmlElement& floor) const {
+    const auto corners = numbers(floor, "corners", 8);
+    if (corners.empty() || !is_crossed(corners)) return;
+    std::string turned;
+    for (const double each : in_turn(corners)) turned += (turned.empty() ? "" : " ") + print_real(each);
+    const XmlAttribute* name = floor.attribute("name");
+    throw invalid(floor.attribute("corners")->value_place,
+                  "floor" + (name ? ' ' + quote(name->value) : "") +
+                      ": two of its edges cross; expected its corners in turn, around it: corners=\"" + turned + '"');
+  }
+
   void look_at_floor(const XmlElement& floor) {
+    look_at_corners(floor);
     const auto z = numbers(floor, "z", 1);
     if (z.empty() || std::abs(z[0]) <= extent) return;
     throw invalid(floor.attribute("z")->value_place, "attribute \"z\": " + print_real(z[0]) +

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <tuple>
 
 #include "text/doubts.hpp"
 #include "text/names.hpp"
@@ -13,9 +15,11 @@ namespace {
 
 [[noreturn]] void refuse(const muster_param& declared, int count, const XmlAttribute& given, const std::string& what,
                          const std::string& hint = "") {
+  const std::string help = declared.help ? declared.help : "";
+  const bool has_order = count > 1 && help.find(": ") != help.npos;  // "place: x y z"
   throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " +
                                        expectation(declared, count) + (count > 1 ? ", with spaces between them" : "") +
-                                       hint);
+                                       (has_order ? " (" + help + ")" : "") + hint);
 }
 
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
@@ -24,6 +28,17 @@ void check_bounds(const muster_param& declared, int count, const XmlAttribute& g
            unit_hint(declared.unit, value, declared.min, declared.max));
   if (const std::string doubt = unit_doubt(declared.name, declared.unit, value); !doubt.empty())
     warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
+}
+
+// Four corners that are given as two, or by ends of a rectangle.
+std::string corners_hint(const muster_param& declared, std::size_t count, const std::string& text) {
+  constexpr std::size_t corners = 8;
+  const auto two = parse_reals(text, 4);
+  if (count != corners || std::string_view(declared.name) != "corners" || !two) return "";
+  const auto [x0, y0, x1, y1] = std::tuple((*two)[0], (*two)[1], (*two)[2], (*two)[3]);
+  std::string all;
+  for (const double each : {x0, y0, x1, y0, x1, y1, x0, y1}) all += (all.empty() ? "" : " ") + print_real(each);
+  return "; for the rectangle between these two: corners=\"" + all + '"';
 }
 
 double choice_value(const muster_param& declared, const XmlAttribute& given) {
@@ -53,9 +68,10 @@ Error lacking(const XmlElement& element, const std::string& attribute, const std
 
 void refuse_inside(const XmlElement& element) {
   const XmlElement& inside = element.children[0];
-  throw invalid(inside.place, "<" + inside.name + "> stands inside <" + element.name +
-                                  ">, which takes attributes only; "
-                                  "expected elements side by side in <world>");
+  throw invalid(inside.place, "<" + inside.name + "> stands inside <" + element.name + "> of line " +
+                                  std::to_string(element.place.line) +
+                                  ", which takes attributes only; "
+                                  "expected elements side by side in <world>, each closed by \"/>\"");
 }
 
 void expect_attributes(const XmlElement& element, const std::vector<std::string>& valid) {
@@ -139,7 +155,7 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
       const auto values = parse_reals(given.value, n);
       if (!values || (count == 1 && !parse_real(given.value)))
         refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n),
-               power_hint(declared.unit, given.value));
+               power_hint(declared.unit, given.value) + corners_hint(declared, n, given.value));
       for (const double value : *values) check_bounds(declared, count, given, value, warn);
       return *values;
     }

@@ -10,6 +10,8 @@
 #include "rows.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/synonyms.hpp"
+#include "text/xml_scan.hpp"
 
 namespace muster {
 namespace {
@@ -29,6 +31,9 @@ void check_root(const std::string& name, const Place& place) {
                 "the root element is <" + name + ">" + (other == others.end() ? "; expected <world>" : other->second));
 }
 
+const std::string walls_of_a_file =
+    "; expected the elements themselves, or <walls file=\"walls.csv\"/>, a table name,x0[m],y0[m],x1[m],y1[m],material";
+
 void read_root(const XmlElement& root, World& world) {
   static const std::vector<std::string> valid = {"name", "dt", "until", "seed"};
   world.name = std::filesystem::absolute(world.file).lexically_normal().parent_path().filename().string();
@@ -47,6 +52,11 @@ void read_root(const XmlElement& root, World& world) {
                                              (seed ? given.value + " is out of bounds" : why_not_integer(given.value)) +
                                              "; expected an integer from 0");
       world.seed = static_cast<uint64_t>(*seed);
+    } else if (given.name.starts_with("xmlns")) {
+      throw invalid(given.place, "a world has no namespaces (" + given.name + ")" +
+                                     (given.value.find("XInclude") == given.value.npos
+                                          ? "; expected <world> without it"
+                                          : ", and includes no files: it is one file" + walls_of_a_file));
     } else {
       refuse_unknown(given, "world", valid);
     }
@@ -76,10 +86,30 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
                                                     ", so that <" + element.name + "> " + outcome});
 }
 
-// What to do without an element of SDF that has no like here.
-std::string foreign_element(const std::string& name) {
-  if (name == "plugin") return "; a plugin is an element of its own name, such as <physics.simbody/>";
-  if (name == "include") return "; a robot is <robot model=\"...\" at=\"0 0 0\"/>, and a world is one file";
+// The model that is like that of Gazebo in a text such as "model://turtlebot3_waffle"; "..." where none is known.
+std::string robot_model(std::string_view text) {
+  static const std::vector<std::string> likely = {"waffle", "husky", "scarab", "hummingbird", "f1tenth", "youbot"};
+  for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
+    to = std::min(text.find_first_of("/:_-. ", from), text.size());
+    const std::string word(text.substr(from, to - from));
+    if (std::find(likely.begin(), likely.end(), word) != likely.end()) return word;
+  }
+  for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
+    to = std::min(text.find_first_of("/:_-. ", from), text.size());
+    if (const std::string like = synonym(text.substr(from, to - from), likely); !like.empty()) return like;
+  }
+  return "...";
+}
+
+// What to do without an element of SDF that has no like here; `text` is one in it, where it is known.
+std::string foreign_element(const std::string& name, std::string_view text = "") {
+  if (name == "plugin")
+    return "; a plugin is an element of its own name, such as <physics.simbody/>, and what a robot's model has, as its "
+           "drive and its laser, needs none: leave it out";
+  if (name == "include")
+    return ", which is one file and takes no models of Gazebo; expected <robot name=\"...\" model=\"" +
+           robot_model(text) + "\" at=\"0 0 0\"/>, a model of muster or a URDF file";
+  if (name == "xi:include") return ", which is one file and includes no others" + walls_of_a_file;
   if (name == "light" || name == "scene" || name == "gui") return "; leave it out";
   if (name == "physics" || name == "gravity") return "; the physics is a plugin, such as <physics.simbody/>";
   if (name == "node")
@@ -105,13 +135,15 @@ bool is_element(const Standard& standard, std::string_view name) {
                      [&](const auto& known) { return name == known.name; });
 }
 
-// SDF's <pose>x y z roll pitch yaw</pose>; a text in an element that a world has not is that element's fault.
+// SDF's <pose>x y z roll pitch yaw</pose>. A text in an element that a world has not is that element's fault, and told
+// at its place: throws FaultOfElement.
 std::string in_place_of_text(const Standard& standard, const std::vector<std::string_view>& open,
                              std::string_view text) {
   if (open.size() < 3) return "";
   const std::string_view own = open.back(), around = open[open.size() - 2];
   if (!is_element(standard, open[1]))
-    return "<" + std::string(open[1]) + "> is no element of a world" + foreign_element(std::string(open[1]));
+    throw FaultOfElement{
+        1, "<" + std::string(open[1]) + "> is no element of a world" + foreign_element(std::string(open[1]), text)};
   const auto numbers = parse_reals(text, 6);
   if (own != "pose" || !numbers) return "";
   const auto list = [&](std::size_t from, std::size_t to) {

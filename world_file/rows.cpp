@@ -111,8 +111,30 @@ class RowReader {
     const std::string fault =
         elements_[row]->fault(numbers_.at(declared.set + '/' + declared.name),
                               [this](const std::string& table, double number) { return cells_of(table, number); });
-    if (!fault.empty()) throw invalid(declared.place, declared.set + ' ' + quote(declared.name) + ' ' + fault);
+    if (fault.empty()) return;
+    if (declared.set == "door") check_door(row);
+    throw invalid(declared.place, declared.set + ' ' + quote(declared.name) + ' ' + fault);
   }
+
+  // A door beyond its wall, with the numbers, at the attribute that says where it begins.
+  void check_door(std::size_t row) const {
+    const RowDeclaration& declared = world_.rows[row];
+    const auto door = cells_of("door/shape", numbers_.at(declared.set + '/' + declared.name));
+    const auto wall = cells_of("wall/shape", door[0]);
+    const std::string& name = names_.at("wall")[static_cast<std::size_t>(door[0])];
+    const double at = door[1], width = door[2], length = std::hypot(wall[2] - wall[0], wall[3] - wall[1]);
+    const auto given = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& p) { return p.row == row; });
+    const XmlAttribute* begins = given == pending_.end() ? nullptr : given->given->attribute("at");
+    const double most = rounded(length - width);
+    throw invalid(begins ? begins->value_place : declared.place,
+                  "door " + quote(declared.name) + " ends at " + print_real(rounded(at + width)) + " m (at " +
+                      print_real(at) + " + width " + print_real(width) + ") of the wall " + quote(name) +
+                      ", which is " + print_real(rounded(length)) + " m long; expected " +
+                      (most >= 0 ? "at=\"" + print_real(most) + "\" or less"
+                                 : "a width of at most " + print_real(rounded(length)) + " m"));
+  }
+
+  static double rounded(double metres) { return std::round(metres * 1e6) / 1e6; }
 
   std::vector<double> cells_of(const std::string& table, double number) const {
     const auto slash = table.find('/');
@@ -165,6 +187,8 @@ class RowReader {
       if (!*attribute.table) {
         world_.texts[row.set + '/' + row.name + '/' + attribute.param.name] =
             found ? found->value : attribute.param.text;
+        if (found)  // for messages about what it names
+          world_.texts[row.set + '/' + row.name + "/place/" + attribute.param.name] = found->value_place.text();
       } else if (found) {
         row.values.push_back({attribute.table, attribute.store,
                               attribute_values(attribute.param, attribute.count, *found, finder(), warner()),

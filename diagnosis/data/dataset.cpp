@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "diagnosis/data/clock.hpp"
@@ -16,13 +17,32 @@ namespace {
 
 constexpr std::size_t most_rows = 2'000'000;  // a fit holds about 1.6 kB a row
 
+const std::string renames = "; muster import FILE --map MAP --out FILE makes such a table of this one";
+
 // A column that readings must have. Where it is missing, tables of others are what the user most often has.
 std::size_t needed(const TextTable& table, const std::string& name, const std::string& unit) {
   try {
     return table.require(name, unit);
   } catch (const Error& error) {
     if (table.find(name)) throw;
-    throw Error(error.exit(), error.place(), error.message() + "; muster import FILE --map MAP renames columns");
+    throw Error(error.exit(), error.place(), error.message() + renames);
+  }
+}
+
+// The columns without which a table has no readings, told together where several are missing.
+void require_all(const TextTable& table) {
+  const bool has_distance = table.find("distance") && !table.find("tx_x") && !table.find("rx_x");
+  const bool is_loss = table.find("path_loss") && !table.find("rssi");
+  std::vector<TextColumn> all = {{"tx", ""}, {"rx", ""}};
+  if (has_distance)
+    all.push_back({"distance", "m"});
+  else
+    for (const char* place : {"tx_x", "tx_y", "rx_x", "rx_y"}) all.push_back({place, "m"});
+  all.push_back(is_loss ? TextColumn{"path_loss", "dB"} : TextColumn{"rssi", "dBm"});
+  try {
+    table.require_most(all);
+  } catch (const Error& error) {
+    throw Error(error.exit(), error.place(), error.message() + renames);
   }
 }
 
@@ -72,15 +92,25 @@ void read_covariates(Dataset& data) {
   }
 }
 
-// Refuses degrees: a plan needs metres. The user converts, since latitude and longitude are easily swapped.
-void refuse_degrees(const TextTable& table) {
+// The first column that is a latitude or a longitude, of a table without places in metres; else none.
+std::optional<std::size_t> column_of_degrees(const TextTable& table) {
   static const std::set<std::string> words = {"lat", "lon", "lng", "long", "latitude", "longitude"};
-  if (table.find("tx_x") && table.find("rx_x")) return;
+  if (table.find("tx_x") && table.find("rx_x")) return {};
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
     std::string word = table.columns()[c].name;
     word.erase(0, word.rfind('_') + 1);
     std::transform(word.begin(), word.end(), word.begin(), [](unsigned char l) { return std::tolower(l); });
-    if (!words.count(word)) continue;
+    if (words.count(word)) return c;
+  }
+  return {};
+}
+
+bool has_degrees(const TextTable& table) { return column_of_degrees(table).has_value(); }
+
+// Refuses degrees: a plan needs metres. The user converts, since latitude and longitude are easily swapped.
+void refuse_degrees(const TextTable& table) {
+  if (const auto found = column_of_degrees(table)) {
+    const std::size_t c = *found;
     throw invalid(
         table.header_place(c),
         "column " + quote(table.columns()[c].label()) +
@@ -176,6 +206,7 @@ Dataset read_dataset(std::shared_ptr<const TextTable> read) {
                                       std::to_string((table.rows() + most_rows - 1) / most_rows) +
                                       ", or a part of the time");
   refuse_other_tables(table);
+  if (!has_degrees(table)) require_all(table);
   data.tx = table.texts(needed(table, "tx", ""));
   data.rx = table.texts(needed(table, "rx", ""));
   read_places(data);

@@ -157,9 +157,14 @@ void check_times(const Dataset& data) {
         throw invalid(at(data, row, "t"),
                       row_text(row) + ": " + who + " repeats " + row_text(before) + "; expected each (t, tx, rx) once");
       if (data.t[row] < data.t[before])
-        throw invalid(at(data, row, "t"), row_text(row) + ": time runs backwards for " + who + ", after " +
-                                              print_real(data.t[before]) + " s in " + row_text(before) +
-                                              "; expected rows of a pair in the order of time");
+        throw invalid(
+            at(data, row, "t"),
+            row_text(row) + ": time runs backwards for " + who + ", after " + print_real(data.t[before]) + " s in " +
+                row_text(before) + "; expected rows of a pair in the order of time" +
+                (data.t[row] <= data.t[0] ? ": are these two runs in one table? expected a table each, or " +
+                                                ("the times of the second later: " + print_real(data.t[row])) +
+                                                " s as more than " + print_real(data.t[before]) + " s"
+                                          : ""));
       entry->second = row;
     }
   }

@@ -54,6 +54,17 @@ std::string why_no_column(const std::string& rule) {
   return "";
 }
 
+// What is wrong with a rule that divides a column by a number, and how it is written here; "" of any other.
+std::string division(const std::string& rule, const std::vector<std::string>& columns) {
+  const std::size_t slash = rule.find('/');
+  if (slash == rule.npos || std::find(columns.begin(), columns.end(), rule) != columns.end()) return "";
+  const std::string column(trimmed(rule.substr(0, slash))), by(trimmed(rule.substr(slash + 1)));
+  const auto divisor = parse_real(by);
+  if (!divisor || *divisor == 0 || std::find(columns.begin(), columns.end(), column) == columns.end()) return "";
+  return quote(rule) + ": a rule has no division; expected " + print_real(1 / *divisor) + "*" + column +
+         " (SCALE*COLUMN + OFFSET)";
+}
+
 std::string name_of(char separator) {
   if (separator == ' ') return "blanks";
   return separator == '\t' ? "tabs" : std::string("'") + separator + "'";
@@ -244,6 +255,7 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end()) {
     if (const std::size_t number = number_in(column); number > 0 && number <= columns_.size()) return number - 1;
+    if (const std::string fault = division(column, columns_); !fault.empty()) throw invalid(for_whom, fault);
     throw invalid(for_whom,
                   file_ + " has no column " + quote(column) + why_no_column(column) + "; " + suggest(column, columns_));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <sstream>
 
 #include "text/names.hpp"
@@ -148,6 +149,9 @@ class Reader {
   void read_table(const std::string& name, const std::string& right) {
     const auto words = words_of(right);
     if (words.size() != 3) throw invalid(place_, "expected table NAME = FILE KEY_COLUMN KEY");
+    if (const auto used = dotted_.find(name); used != dotted_.end())
+      throw invalid(place_, "table " + quote(name) + " stands below line " + std::to_string(used->second) +
+                                ", which uses it; expected it above");
     map_.tables[name] = {folder_ / words[0], words[1], words[2]};
   }
 
@@ -203,11 +207,16 @@ class Reader {
     return true;
   }
 
-  void check_table(const std::string& name) const {
-    if (name.empty() || map_.tables.count(name)) return;
+  // "field.x" is the column x of a table "field" where one is declared above, and else the column field.x, as ROS calls
+  // it.
+  void resolve(ColumnReference& from) {
+    if (from.table.empty() || map_.tables.count(from.table)) return;
     std::vector<std::string> known;
     for (const auto& [other, table] : map_.tables) known.push_back(other);
-    throw invalid(place_, "there is no table " + quote(name) + " above; " + suggest(name, known));
+    if (!nearest(from.table, known).empty())
+      throw invalid(place_, "there is no table " + quote(from.table) + " above; " + suggest(from.table, known));
+    dotted_.emplace(from.table, place_.line);
+    from = {"", from.table + '.' + from.column};
   }
 
   void read_column(const std::string& label, const std::string& right) {
@@ -231,12 +240,11 @@ class Reader {
       rule.time = time_rule(trimmed(right.substr(5)), place_);
     } else if (words.size() > 1 && (words[0] == "east" || words[0] == "north" || words[0] == "up")) {
       rule.globe = globe_rule(words[0], {words.begin() + 1, words.end()}, place_);
-      for (const ColumnReference& r :
-           {rule.globe->latitude, rule.globe->longitude, rule.globe->altitude.value_or(ColumnReference{})})
-        check_table(r.table);
+      resolve(rule.globe->latitude), resolve(rule.globe->longitude);
+      if (rule.globe->altitude) resolve(*rule.globe->altitude);
     } else {
       rule.number = number_rule(right, place_);
-      check_table(rule.number->from.table);
+      resolve(rule.number->from);
     }
     map_.columns.push_back(rule);
   }
@@ -245,6 +253,7 @@ class Reader {
   std::filesystem::path folder_;
   Place place_;
   ImportMap map_;
+  std::map<std::string, int> dotted_;  // what stands before the dot in columns' names, and the line
 };
 
 }  // namespace

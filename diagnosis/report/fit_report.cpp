@@ -2,6 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include "diagnosis/calibration/data_doubts.hpp"
 #include "diagnosis/calibration/fit_figures.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
@@ -122,6 +127,50 @@ void print_cells(const CellErrors& errors, const CellOptions& options) {
   for (const std::string& words : errors.cannot_show) fmt::print("  - {}\n", words);
 }
 
+// `; all readings are at 3 to 3.1 m`, where they are at nearly one distance.
+std::string one_distance(const Dataset& data) {
+  constexpr double apart = 1.5;  // times; less tells no law of distance
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (std::size_t i = 0; data.has_places() && i < data.rows(); ++i) {
+    const double d = std::hypot(data.tx_at[i][0] - data.rx_at[i][0], data.tx_at[i][1] - data.rx_at[i][1]);
+    if (data.is_wild(i) || std::isnan(data.rssi[i])) continue;
+    low = std::min(low, d), high = std::max(high, d);
+  }
+  if (!(high > 0) || high > apart * low) return "";
+  return fmt::format("; all readings are at {:.3g} to {:.3g} m in plan: expected readings at other distances", low,
+                     high);
+}
+
+// Parameters of which the interval reaches from bound to bound: the readings say nothing of them, though some differ by
+// rounding from what no reading depends on. They are told as not identifiable, with what makes up for a change.
+void name_unsettled(Fit& fit, const Dataset& data) {
+  std::vector<std::pair<FitParameter*, Eigen::Index>> unsettled;
+  Eigen::Index column = 0;
+  for (FitParameter& p : fit.parameters) {
+    if (std::isnan(p.value)) continue;  // it was held
+    if (p.lower95 <= p.lower && p.upper95 >= p.upper && column < fit.slopes.cols()) unsettled.emplace_back(&p, column);
+    ++column;
+  }
+  if (unsettled.empty()) return;
+  const auto& [last, of_last] = unsettled.back();
+  std::string words = fmt::format("{} lies anywhere from {:g} to {:g}{}{}", last->path, last->lower, last->upper,
+                                  last->unit.empty() ? "" : " ", last->unit);
+  if (unsettled.size() > 1) {
+    const auto& [first, of_first] = unsettled.front();
+    const Eigen::VectorXd one = fit.slopes.col(of_last), other = fit.slopes.col(of_first);
+    const double makes_up = -one.dot(other) / other.squaredNorm();
+    const double left = std::sqrt((one + makes_up * other).squaredNorm() / static_cast<double>(one.size()));
+    words = fmt::format("changing {} by 1{}{} together with {} by {:.4g}{}{} changes readings by {:.1g} dB only",
+                        last->path, last->unit.empty() ? "" : " ", last->unit, first->path, makes_up,
+                        first->unit.empty() ? "" : " ", first->unit, left);
+  }
+  fit.not_identifiable.push_back(words + one_distance(data));
+  for (const auto& [p, at] : unsettled) {
+    p->identifiable = false;
+    p->value = p->by_search = p->stderror = p->lower95 = p->upper95 = p->freedom = std::nan("");
+  }
+}
+
 }  // namespace
 
 FitReport::FitReport(const std::filesystem::path& world, const std::filesystem::path& data,
@@ -139,6 +188,7 @@ FitReport::FitReport(const std::filesystem::path& world, const std::filesystem::
   // Means of power need the fading that expectations leave out.
   maps_ = cell_maps(model_, fit_, options_.average == Average::dB ? fit_.mean : model_.drawn(), options_);
   errors_ = cell_errors(maps_, fit_, options_);
+  name_unsettled(fit_, data_);
 }
 
 void FitReport::draw(const std::filesystem::path& folder) {

@@ -42,7 +42,9 @@ struct ControlAttitude {
     for (const Row& row : k[commands]) {
       ++number;
       if (!is_null(row.robot) && row.robot != k[robot]) continue;
-      if (!(row.t > last)) throw BadInput("commands, row " + std::to_string(number) + ": t does not rise");
+      if (!(row.t > last))
+        throw BadInput(times.rows().at(number - 1) + "t does not rise: " + TableTimes::print(row.t) + " s after " +
+                       TableTimes::print(last) + " s; expected the rows of a robot in the order of time");
       last = row.t;
       if (++own == 1) first = number - 1;
       if (row.t <= now) *k[command] = row.asked;

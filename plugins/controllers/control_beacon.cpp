@@ -21,7 +21,13 @@ struct ControlBeacon {
         period(s.value("period")),
         radio(s.param("radio")),
         outbox(s.write<Outgoing>("outbox/{radio}/message")) {
-    if (s.param("to") == radio) s.warn("self", "attribute \"to\": it speaks to itself; expected another radio");
+    if (s.param("to") == radio) {
+      const std::string name = s.host()->row_name(s.host(), "radio", static_cast<uint32_t>(radio));
+      s.host()->event(s.host(), ("warning: " + s.text("self/place/to") + ": attribute \"to\": \"" + name +
+                                 "\" is the radio that it speaks on, so that nobody hears it; expected another radio, "
+                                 "or no \"to\", which is all")
+                                    .c_str());
+    }
   }
 
   void step(const Step& k) const {

@@ -39,10 +39,7 @@ struct ControlKeepClear {
         scan(s.read<Scan>("scan/{robot}/message")),
         command(s.modify<Command>("robot/{robot}/command")),
         ahead(s.write<Ahead>("self/ahead")) {
-    const WorldRobots robots(s, description::Meshes::skip);
-    const auto* robot = robots.of(s.param("robot") + 1);
-    if (!robot || robot->sensors.empty() || !(robot->sensors[0].laser.max_range > 0))
-      throw BadInput("the robot has no laser: its model has no <sensor> with a <ray> and a range");
+    WorldRobots(s, description::Meshes::skip).require_laser(s, s.param("robot"));
   }
 
   void step(const Step& k) const {

@@ -8,6 +8,7 @@
 #include "description/world_robots.hpp"
 #include "plugins/heading.hpp"
 #include "plugins/periods.hpp"
+#include "plugins/table_rows.hpp"
 #include "roadmap.hpp"
 #include "roadmap/route.hpp"
 #include "roadmap/rows.hpp"
@@ -114,19 +115,13 @@ struct ControlNavigate {
       goal = s.read<Goal2d>("robot/{robot}/goal2d");
     } else {
       goals = s.file<Waypoint>("goals");
+      goal_rows.emplace(s, "goals");
     }
     if (s.param("laser") != 0) {
       scan = s.read<Scan>("scan/{robot}/message");
-      expect_laser(s);
+      description::WorldRobots(s, description::Meshes::skip).require_laser(s, s.param("robot"));
     }
     if (!s.text("rssi").empty()) take_station(s);
-  }
-
-  static void expect_laser(Setup& s) {
-    const description::WorldRobots robots(s, description::Meshes::skip);
-    const auto* robot = robots.of(s.param("robot") + 1);
-    if (!robot || robot->sensors.empty() || !(robot->sensors[0].laser.max_range > 0))
-      throw BadInput("the robot has no laser: its model has no <sensor> with a <ray> and a range");
   }
 
   void take_station(Setup& s) {
@@ -278,12 +273,31 @@ struct ControlNavigate {
     m.way.clear();
     for (const Point& p : found.points) m.way.push_back({p.x, p.y});
     m.now.status = m.way.size() < 2 ? no_way : on_its_way;
+    if (m.now.plans == 1 && goals) look_at_goals(k);
     if (m.now.status == no_way && (!was_without || is_news))
-      k.event(why + "no way to " + place_text(to) + ": " + found.fault +
+      k.event((m.seen.size() > 0 ? "" : "warning: " + place_of_goal(m)) + why + "no way to " + place_text(to) + ": " +
+              found.fault +
               (m.seen.size() > 0 ? ", around " + std::to_string(m.seen.size()) + " echoes off the plan" : ""));
     if (m.now.status == on_its_way && (was_without || is_news))
       k.event(why + "plans " + metres(found.length) + " m by " + std::to_string(m.way.size() - 1) + " pieces to " +
               place_text(to));
+  }
+
+  // Of the goal that it goes to: "goals.csv:2:1: ", or nothing where it is not of a table.
+  std::string place_of_goal(const Memory& m) const {
+    return goals ? goal_rows->at(static_cast<std::size_t>(m.now.next)) : "";
+  }
+
+  // At its first plan: warns of goals of the table to which no way leads from the one before.
+  void look_at_goals(const Step& k) const {
+    const auto all = k[*goals];
+    for (std::size_t i = 1; i < all.size(); ++i) {
+      const roadmap::Route found =
+          roadmap::route(map->graph, map->obstacles, {all[i - 1].x, all[i - 1].y}, {all[i].x, all[i].y});
+      if (!found.fault.empty())
+        k.event("warning: " + goal_rows->at(i) + "no way to " + place_text({all[i].x, all[i].y, null()}) + ": " +
+                found.fault);
+    }
   }
 
   // True where an echo is nearer to the way ahead than the radius, less what a cell of echoes rounds.
@@ -333,6 +347,7 @@ struct ControlNavigate {
   std::optional<In<roadmap::Row>> rows;
   std::optional<In<Goal2d>> goal;
   std::optional<In<Waypoint>> goals;
+  std::optional<TableRows> goal_rows;
   std::optional<In<Scan>> scan;
   std::optional<In<RssiPlace>> levels;
   std::string robot, station;

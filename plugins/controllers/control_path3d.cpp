@@ -1,6 +1,9 @@
 // Follows way points in space, on schedule.
+#include <cstdio>
 #include <muster/plugin.hpp>
+#include <string>
 
+#include "plugins/table_rows.hpp"
 #include "timed_path.hpp"
 
 namespace {
@@ -47,11 +50,13 @@ struct ControlPath3d {
         lead(s.value("lead")),
         heading(s.value("heading")),
         heading_gain(s.value("heading_gain")),
+        rows(s, "path"),
         path(s.file<WayPoint3d>("path")),
         seen(s.read<Position3d>("robot/{robot}/position3d")),
         asked(s.write<Velocity3d>("robot/{robot}/velocity3d")) {}
 
   void step(const Step& k) const {
+    if (k.tick() == 1) warn_of_depth(k);
     const auto way = [&](double t) {
       return timed_path(k[path], t - k[start], k[speed], k[acceleration], k[wait], k[loop] != 0);
     };
@@ -71,7 +76,23 @@ struct ControlPath3d {
                  here.acceleration[2]};
   }
 
+  // Way points below the ground, as those of PX4, whose z is down.
+  void warn_of_depth(const Step& k) const {
+    std::size_t first = 0, below = 0;
+    for (std::size_t i = 0; i < k[path].size(); ++i) {
+      if (!(k[path][i].z < 0)) continue;
+      if (below++ == 0) first = i;
+    }
+    if (below == 0) return;
+    char z[64];
+    std::snprintf(z, sizeof z, "z = %.6g m", k[path][first].z);
+    k.event("warning: " + rows.at(first) + z + " is below the ground" +
+            (below > 1 ? ", in " + std::to_string(below) + " way points" : "") +
+            "; is z down here, as in PX4 (NED)? expected metres up, and x east, y north");
+  }
+
   Value start, speed, acceleration, wait, loop, gain, catch_up, lead, heading, heading_gain;
+  TableRows rows;
   In<WayPoint3d> path;
   In<Position3d> seen;
   Out<Velocity3d> asked;

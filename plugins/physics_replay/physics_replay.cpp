@@ -59,12 +59,10 @@ struct PhysicsReplay {
       if (robot >= courses.size()) continue;
       Course& course = courses[robot];
       const auto fail = [&](const char* what) {
-        throw BadInput("measured poses, row " + std::to_string(i + 1) + " (robot '" +
-                       std::string(k.name("robot", robot)) + "'): " + what);
+        throw BadInput(times.rows().at(i) + "robot '" + std::string(k.name("robot", robot)) + "': " + what);
       };
       const auto warn = [&](const std::string& what) {
-        k.warn("self", "measured poses, row " + std::to_string(i + 1) + " (robot '" +
-                           std::string(k.name("robot", robot)) + "'): " + what);
+        k.event("warning: " + times.rows().at(i) + "robot '" + std::string(k.name("robot", robot)) + "': " + what);
       };
       if (course.track.empty()) course.has_height = !is_null(m.z), first[robot] = i;
       if (course.has_height == is_null(m.z)) fail("z is given in some rows only");
@@ -72,7 +70,8 @@ struct PhysicsReplay {
       if (!turn) fail(why_no_turn(m).c_str());
       if (is_null(m.qw) && std::abs(m.yaw) > whole_turn && !is_doubted) {
         is_doubted = true;
-        warn(print(m.yaw) + " rad is more than a full turn; are these degrees?");
+        warn(print(m.yaw) + " rad is more than a full turn; are these degrees? " + print(m.yaw) + " degrees are " +
+             print(m.yaw * 0.017453292519943295) + " rad");
       }
       if (const double jump = std::hypot(m.x - last[robot].x, m.y - last[robot].y), time = m.t - last[robot].t;
           !course.track.empty() && time > 0 && jump > fastest * time && !is_jumping) {

@@ -46,8 +46,20 @@ def _integer(what: str, value: Any, lowest: int, highest: int) -> int:
     except TypeError:
         number = lowest - 1
     if not lowest <= number <= highest:
-        raise _muster.Error(f"{what}: {value!r} is no value; expected an integer from {lowest} to {highest}")
+        bounds = f"from {lowest}" if highest >= 2**63 - 1 else f"from {lowest} to {highest}"
+        raise _muster.Error(f"{what}: {value!r} is no value; expected an integer {bounds}")
     return number
+
+
+def _ticks(value: Any, dt: float) -> int:
+    """The value as a number of ticks. Raises Error; of a time it says how many ticks it is."""
+    if isinstance(value, (float, np.floating)) and value >= 0 and np.isfinite(value):
+        count = round(value / dt)
+        raise _muster.Error(
+            f"step: {value:g} is no number of ticks; expected an integer from 0: a tick is {dt:g} s, and {value:g} s are "
+            f"{count} ticks, step({count})"
+        )
+    return _integer("step: ticks", value, 0, 2**63 - 1)
 
 
 class Simulation:
@@ -126,7 +138,7 @@ class Simulation:
 
     def step(self, ticks: int = 1) -> None:
         """Runs so many ticks. If one fails, raises Error, and the state is that of the tick before."""
-        self._run.step(_integer("ticks", ticks, 0, 2**63 - 1))
+        self._run.step(_ticks(ticks, self._run.dt()))
 
     def run(self) -> None:
         """Runs to the world's end. Ctrl-C ends it after a whole tick."""

@@ -45,6 +45,9 @@ TEST(UrdfFile, WhatIsNotXmlIsSaidInWords) {
   Files files;
   const std::pair<const char*, const char*> texts[] = {
       {"<link name='a>b'>\n</lnk></robot>", "3: is not XML: </lnk> does not match <link> of line 2; expected </link>"},
+      {"<link name='a'>\n<link name='b'/>\n</robot>",
+       "2: is not XML: <link> is not closed where </robot> comes, in line 4; expected \"/>\" at the end of the tag "
+       "<link ...>, or </link>"},
       {"<link name='a'/>", "1: is not XML: <robot> is not closed; expected </robot> before the end of the file"},
       {"</robot>\n</robot>", "3: is not XML: </robot> closes nothing"},
       {"<link name=a/></robot>", "2: is not XML: an attribute is wrong; expected NAME=\"VALUE\", each once in a tag"},

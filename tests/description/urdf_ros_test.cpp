@@ -64,9 +64,12 @@ TEST(UrdfOfRos, DegreesAndPerCentAreDoubted) {
            "'/><axis xyz='0 1 0'/><limit " + limit + " effort='1' velocity='1'/></joint>\n";
   };
   EXPECT_EQ(warnings_of(joint("0 0 90", "lower='-1' upper='1'")),
-            Texts({"4: joint 'j': <origin> rpy=\"0 0 90\": 90 rad is more than a full turn; are these degrees?"}));
-  EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-90' upper='90'")),
-            Texts({"4: joint 'j': limits of -90 to 90 rad are more than a full turn; are these degrees?"}));
+            Texts({"4: joint 'j': <origin> rpy=\"0 0 90\": 90 rad is more than a full turn; are these degrees? 90 "
+                   "degrees are 1.571 rad"}));
+  EXPECT_EQ(
+      warnings_of(joint("0 0 0", "lower='-90' upper='90'")),
+      Texts({"4: joint 'j': limits of -90 to 90 rad are more than a full turn; are these degrees? 90 degrees are 1.571 "
+             "rad"}));
   EXPECT_EQ(warnings_of(joint("0 0 6.283185307179586", "lower='-6.2832' upper='6.2832'")), Texts());
   EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-1000' upper='1000'")), Texts());  // no degrees: it has no limits
   EXPECT_EQ(warnings_of(joint("0 0 0", "lower='-1' upper='1'") +
@@ -313,14 +316,14 @@ TEST(UrdfOfRos, FittingsHoldWhatAUrdfLacks) {
   EXPECT_EQ(message_of([&] {
               find_setting({"", "mor.xml"}, {files.at("")});
             }),
-            "fittings=\"mor.xml\": there is no such file in " + files.at(""));
+            "there is no file mor.xml in " + files.at(""));
 }
 
 TEST(UrdfOfRos, ModelThatIsXacroByItsName) {
   EXPECT_EQ(message_of([] { find_model("burger.urdf.xacro", {"."}); }),
-            "model 'burger.urdf.xacro' is xacro, not URDF; run xacro first: xacro burger.urdf.xacro > burger.urdf");
+            "burger.urdf.xacro is xacro, not URDF; run xacro first: xacro burger.urdf.xacro > burger.urdf");
   EXPECT_EQ(message_of([] { find_model("a/burger.xacro", {"."}); }),
-            "model 'a/burger.xacro' is xacro, not URDF; run xacro first: xacro a/burger.xacro > burger.urdf");
+            "a/burger.xacro is xacro, not URDF; run xacro first: xacro a/burger.xacro > burger.urdf");
 }
 
 std::filesystem::path shared_urdf(const std::string& name) {

@@ -366,11 +366,19 @@ TEST(Model, AbsentOneIsNamedWithItsNearest) {
   Files files;
   files.write("scarab.urdf", "");
   EXPECT_EQ(message_of([&] { find_model("scrab", {files.at("")}); }),
-            "model 'scrab' is not known: no scrab.urdf in " + files.at("") + "; did you mean 'scarab'?");
+            "there is no model \"scrab\"; did you mean 'scarab'? expected one of scarab, or a URDF file, such as "
+            "\"scrab.urdf\"");
   files.write("crate.urdf", "");
   EXPECT_EQ(message_of([&] { find_model("turtlebot", {files.at("")}); }),
-            "model 'turtlebot' is not known: no turtlebot.urdf in " + files.at("") +
-                "; expected one of crate, scarab, or the path of a .urdf file");
+            "there is no model \"turtlebot\"; expected one of crate, scarab, or a URDF file, such as "
+            "\"turtlebot.urdf\"");
+  files.write("husky.urdf", "");
+  files.write("waffle.urdf", "");
+  const std::string all = " expected one of crate, husky, scarab, waffle, or a URDF file, such as ";
+  EXPECT_EQ(message_of([&] { find_model("turtlebot3_burger", {files.at("")}); }),
+            "there is no model \"turtlebot3_burger\"; did you mean \"waffle\"?" + all + "\"turtlebot3_burger.urdf\"");
+  EXPECT_EQ(message_of([&] { find_model("husky_a200", {files.at("")}); }),
+            "there is no model \"husky_a200\"; did you mean \"husky\"?" + all + "\"husky_a200.urdf\"");
 }
 
 TEST(Drive, RatesAndTwistAreEachOthersInverse) {

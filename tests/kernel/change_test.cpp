@@ -99,7 +99,7 @@ TEST_F(Changes, AFailedChangeLeavesTheRunAsItWas) {
       [&] {
         sim.swap("mover", instance("toy.copy_physics", "x", {{"to", "self/private"}, {"from", "robot/*/nothing"}}));
       },
-      "command line: mover (toy.copy_physics): reads \"robot/*/nothing\", which nobody writes; did you mean ");
+      "command line: mover (toy.copy_physics): reads \"robot/*/nothing\", which nobody writes; expected one of ");
   refused([&] { sim.insert(with("robot/a/pose")); },
           "command line: x (toy.copy_physics): claims \"robot/a/pose\" as \"value\"; its columns are \"" + pose + "\"");
   refused(

@@ -85,7 +85,11 @@ TEST(Registration, RefusesBadDescriptors) {
   EXPECT_EQ(refusal_of([](auto& p) { p.id = nullptr; }),
             "registers the id \"\"; expected one like \"radio.multiwall/1\"");
   EXPECT_EQ(refusal_of([](auto& p) { p.id = "radio"; }),
-            "registers the id \"radio\"; expected one like \"radio.multiwall/1\"");
+            "registers the id \"radio\", without a revision; expected \"radio/1\"");
+  EXPECT_EQ(refusal_of([](auto& p) { p.id = "Radio/x"; }),
+            "registers the id \"Radio/x\"; expected one like \"radio.multiwall/1\"");
+  EXPECT_EQ(refusal_of([](auto& p) { p.id = "radio.sample"; }),
+            "registers the id \"radio.sample\", without a revision; expected \"radio.sample/1\"");
   EXPECT_EQ(refusal_of([](auto& p) { p.phase = 0; }), "registers \"radio.sample/3\" in phase 0; expected 1 to 7");
   EXPECT_EQ(refusal_of([](auto& p) { p.phase = 8; }), "registers \"radio.sample/3\" in phase 8; expected 1 to 7");
   EXPECT_EQ(refusal_of([](auto& p) { p.summary = nullptr; }), "registers \"radio.sample/3\" without a summary");

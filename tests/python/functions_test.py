@@ -191,7 +191,7 @@ class Faults(InAScratchFolder):
 
     def test_wrong_results_are_named(self):
         for result, words in (
-            ([1, 2, 3], "gives 3 for robot/rover/command; expected 2"),
+            ([1, 2, 3], r"gives 3 for robot/rover/command; expected 2: v\[m/s\], w\[rad/s\]"),
             ([[1, 2], [1, 2]], "gives 2 x 2 for robot/rover/command; expected 2"),
             (1.0, "gives a single number for robot/rover/command; expected 2"),
             (None, "robot/rover/command"),

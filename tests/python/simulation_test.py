@@ -259,7 +259,7 @@ class Errors(InAScratchFolder):
             (lambda: muster.Simulation(world, seed=-1), "seed: -1 is no value; expected an integer from 0"),
             (lambda: muster.Simulation(world, workers=0), "workers: 0 is no value; expected an integer from 1 to 256"),
             (lambda: muster.Simulation(world, until=-1), "until: -1 s is before the start"),
-            (lambda: muster.Simulation(world).step(1.5), "ticks: 1.5 is no value"),
+            (lambda: muster.Simulation(world).step(1.5), r"step: 1\.5 is no number of ticks; expected an integer from 0: a tick is 0\.05 s, and 1\.5 s are 30 ticks, step\(30\)"),
             (lambda: muster.Batch(world, seeds=[]), "a batch of no simulations"),
             (lambda: muster.controller(print, robot="rover", every=0), "every: 0 is no number of ticks"),
             (lambda: muster.controller(3, robot="rover"), "cannot be 3; expected something that can be called"),

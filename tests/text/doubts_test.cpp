@@ -6,11 +6,13 @@ namespace muster {
 namespace {
 
 TEST(Doubts, AnglesBeyondATurnLookLikeDegrees) {
-  EXPECT_EQ(angle_doubt(90), "90 rad is more than a full turn; are these degrees?");
-  EXPECT_EQ(angle_doubt(-180), "-180 rad is more than a full turn; are these degrees?");
+  EXPECT_EQ(angle_doubt(90), "90 rad is more than a full turn; are these degrees? 90 degrees are 1.5708 rad");
+  EXPECT_EQ(angle_doubt(-180), "-180 rad is more than a full turn; are these degrees? -180 degrees are -3.1416 rad");
   EXPECT_EQ(angle_doubt(6.28), "");
-  EXPECT_EQ(unit_doubt("heading", "rad", 45), "45 rad is more than a full turn; are these degrees?");
-  EXPECT_EQ(unit_doubt("w", "rad/s", 90), "90 rad/s is 14.32 turns a second; are these degrees?");
+  EXPECT_EQ(unit_doubt("heading", "rad", 45),
+            "45 rad is more than a full turn; are these degrees? 45 degrees are 0.7854 rad");
+  EXPECT_EQ(unit_doubt("w", "rad/s", 90),
+            "90 rad/s is 14.32 turns a second; are these degrees? 90 degrees a second are 1.571 rad/s");
   EXPECT_EQ(unit_doubt("w", "rad/s", -10), "");
   EXPECT_EQ(unit_doubt("gyro_range", "rad/s", 1e6), "");
 }
@@ -24,14 +26,14 @@ TEST(Doubts, PowersLookLikeMilliwattsAndLevelsLikeThoseWithoutTheirSign) {
 }
 
 TEST(Doubts, LengthsLookLikeCentimetres) {
-  EXPECT_EQ(unit_doubt("thickness", "m", 12), "12 m; is this centimetres?");
+  EXPECT_EQ(unit_doubt("thickness", "m", 12), "12 m; is this centimetres? 12 cm are 0.12 m");
   EXPECT_EQ(unit_doubt("thickness", "m", 0.12), "");
-  EXPECT_EQ(unit_doubt("antenna", "m", 30), "30 m; is this centimetres?");
+  EXPECT_EQ(unit_doubt("antenna", "m", 30), "30 m; is this centimetres? 30 cm are 0.3 m");
   EXPECT_EQ(unit_doubt("range", "m", 30), "");
 }
 
 TEST(Doubts, WhatIsPlainlyAnotherSizeIsAskedAbout) {
-  EXPECT_EQ(unit_doubt("height", "m", 270), "270 m; is this centimetres?");
+  EXPECT_EQ(unit_doubt("height", "m", 270), "270 m; is this centimetres? 270 cm are 2.7 m");
   EXPECT_EQ(unit_doubt("height", "m", 30), "");
   EXPECT_EQ(unit_doubt("bandwidth", "Hz", 20), "20 Hz; is this MHz? 20 MHz are 20e6 Hz");
   EXPECT_EQ(unit_doubt("bandwidth", "Hz", 2e6), "");
@@ -49,7 +51,7 @@ TEST(Doubts, ConditionsThatNeverOrAlwaysHold) {
             "60 dBm is above every level that arrives, so that this never holds; is a minus missing?");
   EXPECT_EQ(level_doubt("dBm", Compared::above, -60), "");
   EXPECT_EQ(level_doubt("rad", Compared::above, 90),
-            "90 rad is more than a full turn; are these degrees? 90 degrees are 1.571 rad");
+            "90 rad is more than a full turn; are these degrees? 90 degrees are 1.5708 rad");
   EXPECT_EQ(level_doubt("rad", Compared::above, 1.5), "");
   EXPECT_EQ(level_doubt("m", Compared::equal, 0.1),
             "a number in m is seldom exactly 0.1, so that this may never hold; expected above or below");

@@ -53,7 +53,7 @@ TEST(Names, KnowsWhatOtherSimulatorsCallThings) {
 TEST(Names, FindsANameByItsBeginningBeforeANearerOne) {
   EXPECT_EQ(did_you_mean("robot/*/odom", {"robot/*/body", "robot/*/odometry"}),
             R"(; did you mean "robot/*/odometry"?)");
-  EXPECT_EQ(did_you_mean("robot/*/od", {"robot/*/body", "robot/*/odometry"}), R"(; did you mean "robot/*/body"?)");
+  EXPECT_EQ(did_you_mean("robot/*/od", {"robot/*/body", "robot/*/odometry"}), "");  // too short to tell
   EXPECT_EQ(did_you_mean("radio.mult", {"radio.multiwall/none"}), R"()");  // that of a whole name, not of its path
 }
 
@@ -75,6 +75,17 @@ TEST(Names, QuotesStayOnOneShortLine) {
   EXPECT_EQ(quote("a\nb\x7f"), R"("a\x0ab\x7f")");
   EXPECT_EQ(quote(std::string(61, 'a')), '"' + std::string(60, 'a') + "...\"");
   EXPECT_EQ(quote(std::string(59, 'a') + "é"), '"' + std::string(59, 'a') + "...\"");  // é has two bytes
+}
+
+TEST(Names, APathIsMeantByItsPartsAndByWhatTheyMeanElsewhere) {
+  const std::vector<std::string> tables = {"robot/*/odometry", "robot/*/pose", "scan/*/message"};
+  EXPECT_EQ(did_you_mean("/robot1/scan", tables), "; did you mean \"scan/*/message\"?");
+  EXPECT_EQ(did_you_mean("/tf", tables), "; did you mean \"robot/*/pose\"?");
+  EXPECT_EQ(did_you_mean("/robot1/pose", tables), "; did you mean \"robot/*/pose\"?");
+  EXPECT_EQ(did_you_mean("/battery", tables), "");
+  EXPECT_EQ(did_you_mean("robot/*/battery", {"robot/*/contact", "robot/*/drive"}), "");  // alike in what all have
+  EXPECT_EQ(did_you_mean("goal_tolerance", {"goals", "tolerance"}), "; did you mean \"tolerance\"?");
+  EXPECT_EQ(did_you_mean("node", {"controller", "robot"}), "; did you mean \"controller\"?");
 }
 
 }  // namespace

@@ -99,7 +99,10 @@ TEST_F(Table, KnowsNumbersFromNames) {
 TEST_F(Table, RefusesFilesThatAreNoTable) {
   EXPECT_EQ(error_in(""), "d.csv: is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
   EXPECT_EQ(error_in("\x1F\x8B\x08"), "d.csv: is compressed by gzip; expected plain text");
-  EXPECT_EQ(error_in("a,b\n1,\xE9\n"), "d.csv:2:3: byte 7 of the file, 0xe9, is not valid UTF-8");
+  EXPECT_EQ(
+      error_in("a,b\n1,\xE9\n"),
+      "d.csv:2:3: byte 7 of the file, 0xe9, is not valid UTF-8; is it Latin-1, as editors of Windows write? expected "
+      "UTF-8: iconv -f ISO-8859-1 -t UTF-8 d.csv > NEW");
   EXPECT_EQ(error([&] { TextTable::read(folder / "absent.csv"); }), "absent.csv: no such file");
   EXPECT_EQ(error([&] { TextTable::read("/dev/zero"); }), "/dev/zero: is not a regular file");
 }
@@ -131,6 +134,9 @@ TEST_F(Table, RefusesRaggedRows) {
             "d.csv:3:1: the row has 2 cells; expected 3, with ',' between them and '.' in numbers");
   EXPECT_EQ(error_in("a,b\n1,5,2,0\n"),
             "d.csv:2:1: the row has 3 or more cells; expected 2, with ',' between them and '.' in numbers");
+  EXPECT_EQ(error_in("a,b\n1,2\n3,4,\n"),
+            "d.csv:3:4: a comma stands at the end of the row, and makes an empty cell beyond the 2 of the header; "
+            "expected none there");
   EXPECT_EQ(error_in("a,b\n1\n"),
             "d.csv:2:1: the row has 1 cell; expected 2, with ',' between them and '.' in numbers");
   EXPECT_EQ(error_in("a,b\n1,2\n\n"), "d.csv:3:1: the line is empty; expected a row");

@@ -73,6 +73,8 @@ TEST_F(Xml, RefusesWhatIsNoTextFile) {
 }
 
 TEST_F(Xml, RefusesWrongEncodings) {
+  const std::string latin =
+      "; is it Latin-1, as editors of Windows write? expected UTF-8: iconv -f ISO-8859-1 -t UTF-8 w.xml > NEW";
   EXPECT_EQ(error(""), "w.xml: is empty; expected an XML element");
   EXPECT_EQ(error("\xEF\xBB\xBF"), "w.xml: is empty; expected an XML element");
   EXPECT_EQ(error(std::string_view("\xFF\xFE<\0w\0", 6)), "w.xml: is UTF-16; expected UTF-8");
@@ -80,8 +82,11 @@ TEST_F(Xml, RefusesWrongEncodings) {
   EXPECT_EQ(error(std::string_view("<\0w\0", 4)), R"(w.xml:1:2: the control character "\x00" is not allowed)");
   EXPECT_EQ(error("<w a='\x01'/>"), R"(w.xml:1:7: the control character "\x01" is not allowed)");
   EXPECT_EQ(error("\x1F\x8B\x08"), "w.xml: is compressed by gzip; expected plain text");
-  EXPECT_EQ(error("<w>\n  <é a=\"\xE9\"/>\n</w>"), "w.xml:2:9: byte 14 of the file, 0xe9, is not valid UTF-8");
-  EXPECT_EQ(error("\xEF\xBB\xBF<w\xC0\x80/>"), "w.xml:1:3: byte 6 of the file, 0xc0, is not valid UTF-8");
+  EXPECT_EQ(error("<w>\n  <é a=\"\xE9\"/>\n</w>"), "w.xml:2:9: byte 14 of the file, 0xe9, is not valid UTF-8" + latin);
+  EXPECT_EQ(error("\xEF\xBB\xBF<w\xC0\x80/>"), "w.xml:1:3: byte 6 of the file, 0xc0, is not valid UTF-8" + latin);
+  EXPECT_EQ(error("<?xml version='1.0' encoding='ISO-8859-1'?>\n<w a='B\xFCro'/>"),
+            "w.xml:2:8: byte 52 of the file, 0xfc, is not valid UTF-8; the file says encoding=\"ISO-8859-1\", expected "
+            "UTF-8: iconv -f ISO-8859-1 -t UTF-8 w.xml > NEW, and encoding=\"UTF-8\" in its first line");
   for (const char* bad :
        {"\xED\xA0\x80", "\xF4\x90\x80\x80", "\xF0\x80\x80\x80", "\xE0\x80\x80", "\xC3", "\x80", "\xF8"}) {
     EXPECT_THAT(error(std::string("<w a='") + bad + "'/>"), ::testing::HasSubstr("w.xml:1:7: byte 7 of the file"))
@@ -107,7 +112,13 @@ TEST_F(Xml, RefusesWhatIsNotWellFormed) {
       {"<w/></w>", "w.xml:1:5: </w> closes nothing"},
       {"<w a='1' b='2' a='3'/>", "w.xml:1:16: attribute \"a\" stands twice in the tag \"w\"; expected one"},
       {"<w a/>", "w.xml:1:4: attribute \"a\" has no value; expected a=\"...\""},
-      {"<w a=1/>", "w.xml:1:6: the value of \"a\" is not in quotes; expected a=\"...\""},
+      {"<w a=1/>", "w.xml:1:6: the value of \"a\" is not in quotes; expected a=\"1\""},
+      {"<w a=\u201Coffice\u201D/>",
+       "w.xml:1:6: the value of \"a\" stands in typographic quotes, \u201C, as word processors and web pages have "
+       "them; "
+       "expected straight ones: a=\"office\""},
+      {"<w>\n <a b='1'>\n <a/>\n</w>",
+       "w.xml:2:2: <a> is not closed where </w> comes, at 4:1; expected \"/>\" at the end of the tag <a ...>, or </a>"},
       {"<w a='1'b='2'/>", "w.xml:1:9: a space is missing in the tag \"w\"; expected one before an attribute"},
       {"<w 1='1'/>", "w.xml:1:4: \"1\" in the tag \"w\"; expected an attribute's name"},
       {"<w>< a/></w>", "w.xml:1:4: '<' without a name; expected an element"},

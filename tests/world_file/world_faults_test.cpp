@@ -27,12 +27,14 @@ TEST_F(Faults, Fault5MisspeltNames) {
   EXPECT_EQ(
       error_with("<robot name='a'/>"),
       "world.xml:2:1: <robot> has no attribute \"at\", which it needs; expected 3 numbers from -1e+06 to 1e+06 m");
-  EXPECT_EQ(error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
-            "world.xml:2:28: <wheel> stands inside <robot>, which takes attributes only; expected elements side by "
-            "side in <world>");
   EXPECT_EQ(
-      error_with("<a.b><c/></a.b>"),
-      "world.xml:2:6: <c> stands inside <a.b>, which takes attributes only; expected elements side by side in <world>");
+      error_with("<robot name='a' at='0 0 0'><wheel/></robot>"),
+      "world.xml:2:28: <wheel> stands inside <robot> of line 2, which takes attributes only; expected elements side by "
+      "side in <world>, each closed by \"/>\"");
+  EXPECT_EQ(error_with("<a.b><c/></a.b>"),
+            "world.xml:2:6: <c> stands inside <a.b> of line 2, which takes attributes only; expected elements side by "
+            "side in "
+            "<world>, each closed by \"/>\"");
   EXPECT_EQ(error_with("<record tabel='x'/>"),
             "world.xml:2:1: <record> has no attribute \"table\", which it needs; expected a table's name: "
             "set/row/quantity, or set/*/quantity for all rows");
@@ -88,7 +90,9 @@ TEST_F(Faults, Fault7Units) {
       read_with("<robot name='a' at='0 0 0' heading='90'/>\n<robot name='b' at='0 0 0' heading='-6.28'/>");
   ASSERT_EQ(world.warnings.size(), 1u);
   EXPECT_EQ(world.warnings[0].place.line, 2);
-  EXPECT_EQ(world.warnings[0].message, "attribute \"heading\": 90 rad is more than a full turn; are these degrees?");
+  EXPECT_EQ(world.warnings[0].message,
+            "attribute \"heading\": 90 rad is more than a full turn; are these degrees? 90 "
+            "degrees are 1.5708 rad");
   EXPECT_EQ(error_with("<material name='m' loss='-1'/>"),
             "world.xml:2:26: attribute \"loss\": -1 is out of bounds; expected a number from 0 to 100 dB");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' height='0' material='m'/>"),
@@ -112,7 +116,9 @@ TEST_F(Faults, WordsOfOtherSimulatorsAreUnderstood) {
   EXPECT_THAT(error_with("<record topic='/odom'/>"), testing::EndsWith("; is \"topic\" meant for it?"));
   EXPECT_THAT(error_with("<box size='1 1 1'/>"), testing::EndsWith("; did you mean \"wall\"?"));
   EXPECT_THAT(error_with("<plugin name='p'/>"),
-              testing::EndsWith("; a plugin is an element of its own name, such as <physics.simbody/>"));
+              testing::EndsWith(
+                  "; a plugin is an element of its own name, such as <physics.simbody/>, and what a robot's model has, "
+                  "as its drive and its laser, needs none: leave it out"));
   EXPECT_EQ(error("<launch/>"),
             "world.xml:1:1: the root element is <launch>, as in a launch file of ROS; expected <world>");
 }
@@ -120,13 +126,13 @@ TEST_F(Faults, WordsOfOtherSimulatorsAreUnderstood) {
 TEST_F(Faults, UnitsThatLookLikeOthersAreDoubted) {
   const World world = read_with(walls + "<wall from='0 0' to='9 0' thickness='12' material='m'/>");
   ASSERT_EQ(world.warnings.size(), 1u);
-  EXPECT_EQ(world.warnings[0].message, "attribute \"thickness\": 12 m; is this centimetres?");
+  EXPECT_EQ(world.warnings[0].message, "attribute \"thickness\": 12 m; is this centimetres? 12 cm are 0.12 m");
   put("walls.csv",
       "name,x0[m],y0[m],x1[m],y1[m],thickness[m],material\na,0,0,1,0,0.1,m\nb,0,1,1,1,12,m\nc,0,2,1,2,12,m\n");
   const World of_file = read_with(walls + "<walls file='walls.csv'/>");
   ASSERT_EQ(of_file.warnings.size(), 1u);
   EXPECT_EQ(of_file.warnings[0].place.line, 3);
-  EXPECT_EQ(of_file.warnings[0].message, "column \"thickness[m]\": 12 m; is this centimetres?");
+  EXPECT_EQ(of_file.warnings[0].message, "column \"thickness[m]\": 12 m; is this centimetres? 12 cm are 0.12 m");
 }
 
 TEST_F(Faults, WhatIsSetTwiceAtATimeIsWarnedOf) {

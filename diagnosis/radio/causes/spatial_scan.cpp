@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr double quarter_turn = 1.5707963267948966;
 constexpr double between_lines = 0.25, between_starts = 0.4, shortest = 0.8, longest = 6, aside = 0.05;  // m
 constexpr double most_lines = 500, most_places = 100'000;  // beyond these a scan of a large area is coarser
-constexpr std::size_t most = 400;                           // thetas
+constexpr std::size_t most = 400;                          // thetas
 
 std::vector<Swept> the_best(std::vector<Swept> all) {
   std::stable_sort(all.begin(), all.end(), [](const Swept& a, const Swept& b) { return a.gain > b.gain; });

@@ -91,7 +91,8 @@ TEST(CommandWords, ListsWithCommasCornersAndPlugins) {
       "muster: error: sweep.xml:1:60: values: \"2,3,4\" is not a number; expected numbers with blanks between them, "
       "and a point in each: \"1.5 2 2.5\"\n");
   EXPECT_EQ(said_beside_a_channel({"map", "lab", "--out", "o", "--area", "0", "12", "0", "8"}),
-            "muster: error: --area: 0 12 0 8: X0 and X1 are both 0; expected X0 Y0 X1 Y1, two corners\n");
+            "muster: error: --area: 0 12 0 8: X0 and X1 are both 0; expected X0 Y0 X1 Y1, two corners, X0 < X1 "
+            "and Y0 < Y1; did you mean --area 0 0 12 8? (from its order X0 X1 Y0 Y1)\n");
   EXPECT_EQ(said_beside_a_channel({"describe", "multiwall"}),
             "muster: error: there is no element \"multiwall\", and a plugin has a dot in its name; expected "
             "radio.multiwall\n");

@@ -56,6 +56,21 @@ TEST(DataDoubts, Centimetres) {
               HasSubstr("are they centimetres? expected metres"));
 }
 
+// A circle around the base: rounded places leave rounding errors of the distance, of which nothing can be told.
+TEST(DataDoubts, OneDistanceSettlesNoExponent) {
+  const std::string said = said_of_data([i = 0](Reading& r) mutable {
+    const double angle = 0.1 * i++;
+    r.x = std::round(300 * std::cos(angle)) / 100, r.y = std::round(300 * std::sin(angle)) / 100;
+    r.rssi = -50 + (i * 7 % 5 - 2) * 0.8;
+  });
+  for (const char* parameter : {"l0", "n"})
+    EXPECT_THAT(said, testing::ContainsRegex(std::string("radio.multiwall/") + parameter + " +not identifiable"));
+  EXPECT_THAT(said,
+              HasSubstr("not identifiable: changing radio.multiwall/n by 1 together with radio.multiwall/l0 by -4."));
+  EXPECT_THAT(said,
+              HasSubstr(" dB only; all readings are at 2.99 to 3.01 m in plan: expected readings at other distances"));
+}
+
 TEST(DataDoubts, AnotherSite) {
   EXPECT_THAT(said_of_data([](Reading& r) { r.x += 600; }),
               HasSubstr("m beside the plan of the walls, 22 x 8 m; are they of another site, or from another origin?"));

@@ -77,7 +77,7 @@ void expect_refused(const std::string& data, const std::string& message) {
 TEST(Fault25, ColumnsThatAreMissingOrInAnotherUnit) {
   expect_refused(Data().set(0, 7, "level[dBm]").text(),
                  ":1:1: no column \"rssi[dBm]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rx_y, level"
-                 "; muster import FILE --map MAP renames columns");
+                 "; muster import FILE --map MAP --out FILE makes such a table of this one");
   expect_refused(Data().set(0, 5, "rx_x[mm]").text(),
                  ":1:28: column \"rx_x[mm]\" has the wrong unit; expected \"rx_x[m]\": 1 mm is 0.001 m");
 }
@@ -319,8 +319,9 @@ TEST(Fault25, DistancesAndPathLosses) {
                  ":3:14: row 2: a path loss of -60 dB, a level of 60 dBm, is over +30 dBm; expected a level in dBm, "
                  "which is mostly negative");
   expect_refused("tx,rx,path_loss[dB]\nbase,rover,60\nbase,rover,61\n",
-                 ":1:1: no column \"tx_x[m]\" in the table, which has tx, rx, path_loss; muster import FILE --map MAP "
-                 "renames columns");
+                 ":1:1: no columns \"tx_x[m]\", \"tx_y[m]\", \"rx_x[m]\", \"rx_y[m]\" in the table, which has tx, rx, "
+                 "path_loss; expected tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],path_loss[dB]; muster import FILE --map "
+                 "MAP --out FILE makes such a table of this one");
 }
 
 TEST(Fault25, WhatIsNoFaultIsTaken) {

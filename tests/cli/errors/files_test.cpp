@@ -52,8 +52,10 @@ TEST(Fault2, BrokenXmlIsRefusedWithItsPlace) {
   folder.expect_refused(root + "\n</world><world/>", "world.xml:2:9: <world> is a second root element; expected one");
   folder.expect_refused("<world name=\"w\"\n name=\"v\" dt=\"0.1\" until=\"1\"/>",
                         R"(world.xml:2:2: attribute "name" stands twice in the tag "world"; expected one)");
-  folder.expect_refused("<world name=\"\xff\" dt=\"0.1\" until=\"1\"/>",
-                        "world.xml:1:14: byte 14 of the file, 0xff, is not valid UTF-8");
+  folder.expect_refused(
+      "<world name=\"\xff\" dt=\"0.1\" until=\"1\"/>",
+      "world.xml:1:14: byte 14 of the file, 0xff, is not valid UTF-8; is it Latin-1, as editors of Windows "
+      "write? expected UTF-8: iconv -f ISO-8859-1 -t UTF-8 world.xml > NEW");
   folder.expect_refused(std::string("\xff\xfe<\0w\0", 6), "world.xml: is UTF-16; expected UTF-8");
 }
 

@@ -93,10 +93,17 @@ TEST(Fault16, ThrowsInCreate) {
                "world.xml:1:36: shelf (test.throws_in_create): create failed: no licence found");
 }
 
+TEST(Fault16, AParameterThatIsNotDeclaredIsToldWithThoseThatAre) {
+  const ProgramFolder folder;
+  expect_error(run_toy(folder, "<test.undeclared/>"), 3,
+               "world.xml:1:36: test.undeclared (test.undeclared): create failed: parameter \"sise\" is used but not "
+               "declared in params; did you mean \"size\"? declared are size");
+}
+
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
   const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.refuses/>"), 2,
-               "world.xml:1:36: test.refuses (test.refuses): create failed: the moon is no place for it");
+               "world.xml:1:36: test.refuses (test.refuses): the moon is no place for it");
 }
 
 TEST(Fault16, ThrowsInStepAndTheLogOfTheTicksBeforeIsWhole) {

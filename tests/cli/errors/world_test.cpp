@@ -40,8 +40,8 @@ TEST(Fault5, HabitsOfSdfAndRos) {
                         "world.xml:1:58: the text \"3 2 0 0 0 1.5\" stands between elements; expected attributes: "
                         "<robot at=\"3 2 0\" heading=\"1.5\"/>");
   folder.expect_refused(world_of(R"(<physics type="ode"><max_step_size>0.001</max_step_size></physics>)"),
-                        "world.xml:1:71: the text \"0.001\" stands between elements; <physics> is no element of a "
-                        "world; the physics is a plugin, such as <physics.simbody/>");
+                        "world.xml:1:36: <physics> is no element of a world; the physics is a plugin, such as "
+                        "<physics.simbody/>");
   folder.expect_refused(
       world_of(R"(<station name="rover" at="0 0 1"/><record table="/rover/traffics"/>)"),
       "world.xml:1:70: record: there is no table \"/rover/traffics\"; did you mean \"radio/rover/traffic\"? expected "
@@ -72,7 +72,8 @@ TEST(Fault5, WordsOfTheCommandLineToo) {
   EXPECT_EQ(misspelt.exit, 2);
   EXPECT_THAT(misspelt.err, testing::StartsWith("muster: error: there is no verb \"chekc\"; did you mean \"check\"? "
                                                 "expected one of run, check, "));
-  expect_error(folder.muster({"check"}), 2, "muster check: world is required; see muster check --help");
+  expect_error(folder.muster({"check"}), 2,
+               "muster check: world is required: the world's folder or file; see muster check --help");
 }
 
 void expect_numbers_refused(const std::vector<std::string>& environment) {
@@ -107,9 +108,11 @@ TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
   folder.write("world.xml", world_of(R"(<station name="b" at="0 0 1" yaw="90"/>)"));
   const auto outcome = folder.muster({"check", "world.xml"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_EQ(outcome.out,
-            "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees?\n"
-            "w: 0 instances, 0 tables; no error, 1 warning\n");
+  EXPECT_EQ(
+      outcome.out,
+      "warning: world.xml:1:70: attribute \"yaw\": 90 rad is more than a full turn; are these degrees? 90 degrees "
+      "are 1.5708 rad\n"
+      "w: 0 instances, 0 tables; no error, 1 warning\n");
 }
 
 TEST(Fault7, ImpossibleQuantitiesAreRefused) {
@@ -133,7 +136,8 @@ TEST(Fault7, WallsWithoutLengthAndDoorsBeyondTheirsAreToldWithTheirLines) {
   const std::string wall = R"(<wall name="w1" from="0 0" to="3 4" material="m"/>)";
   folder.expect_refused(
       world_of(brick + "<door name=\"d1\" wall=\"w1\" at=\"4.2\"/>\n" + wall),
-      "world.xml:2:1: door \"d1\" ends beyond its wall; expected at + width within the wall's length");
+      "world.xml:2:31: door \"d1\" ends at 5.1 m (at 4.2 + width 0.9) of the wall \"w1\", which is 5 m long; expected "
+      "at=\"4.1\" or less");
   folder.write("world.xml", world_of(brick + "<door wall=\"w1\" at=\"4.1\"/>\n" + wall));
   EXPECT_EQ(folder.muster({"check", "world.xml"}).exit, 0);
   folder.write("walls.csv",

@@ -27,8 +27,7 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
   expect_refused(
       "<world name=\"w\" until=\"1\"><physics type=\"ode\"><max_step_size>0.001</max_step_size></physics>"
       "</world>",
-      "world.xml:1:62: the text \"0.001\" stands between elements; <physics> is no element of a world; the "
-      "physics is a plugin, such as <physics.simbody/>");
+      "world.xml:1:27: <physics> is no element of a world; the physics is a plugin, such as <physics.simbody/>");
   expect_refused(
       "<world name=\"w\" until=\"1\"><physics type=\"ode\"/></world>",
       "world.xml:1:27: <physics> is no element of a world; expected a plugin (with a dot in its name: "
@@ -36,7 +35,7 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
 }
 
 TEST(FirstHour, PlacesWithCommasOrTooFewNumbers) {
-  const std::string expected = "; expected 3 numbers from -1e+06 to 1e+06 m, with spaces between them";
+  const std::string expected = "; expected 3 numbers from -1e+06 to 1e+06 m, with spaces between them (place: x y z)";
   expect_refused(world_of("<station at=\"1,2,0.5\"/>"),
                  "world.xml:1:49: attribute \"at\": \"1,2,0.5\" has commas between its numbers" + expected);
   expect_refused(world_of("<station at=\"1 2\"/>"),

@@ -119,8 +119,9 @@ TEST(FirstHour, AJammerOutsideOfTheNetworksBand) {
 
 TEST(FirstHour, AJammerOfANetworkThatFeelsNone) {
   EXPECT_EQ(warnings_of(base + channel + "<network.ideal/>\n<radio.jammer radio=\"base\"/>"),
-            "warning: world.xml:5:1: radio.jammer (radio.jammer): writes \"radio/base/emission\", which nobody reads; "
-            "muster describe radio.jammer says what it is for\n");
+            "warning: world.xml:5:1: radio.jammer (radio.jammer): writes \"radio/base/emission\", which the network "
+            "of this world, network.ideal (world.xml:4:1), does not read, so that it has no effect; expected "
+            "network.wifi, network.lrwpan or network.bluetooth\n");
 }
 
 }  // namespace

@@ -85,7 +85,9 @@ TEST(RoadmapVerb, WarnsOfARobotThatCannotReachItsGoalOrStandsInAWall) {
               ElementsAre("robot \"stuck\" stands in no free space, 0 m from a wall; expected at least 0.2 m on all "
                           "sides"));
   const json closed = figures(folder, {"--robot", "in", "--to", "-1", "-1"});
-  EXPECT_THAT(closed["warnings"], ElementsAre("--to: no way leads from 3 2 to -1 -1"));
+  EXPECT_THAT(
+      closed["warnings"],
+      ElementsAre("--to: no way leads from 3 2 to -1 -1, which lies outside of the plan (x 0 to 6, y 0 to 4 m)"));
   EXPECT_EQ(closed["components"], 1) << "corners are outside alone";
   const json open = figures(folder, {"--robot", "in", "--to", "-1", "-1", "--open-doors"});
   EXPECT_TRUE(open["warnings"].empty());
@@ -98,7 +100,8 @@ TEST(RoadmapVerb, WarnsOfARobotThatCannotReachItsGoalOrStandsInAWall) {
                       "<robots.odometry/><robots.roadmap robot=\"in\"/>"
                       "<control.navigate robot=\"in\" goals=\"goals.csv\"/>"));
   EXPECT_THAT(figures(folder, {})["warnings"],
-              ElementsAre("robot \"in\" cannot reach its goal: no way leads from 1 1 to -1 -1"));
+              ElementsAre("robot \"in\" cannot reach its goal: no way leads from 1 1 to -1 -1, which lies outside of "
+                          "the plan (x 0 to 6, y 0 to 4 m)"));
 }
 
 TEST(RoadmapVerb, RefusesWordsThatItCannotUse) {
@@ -117,7 +120,8 @@ TEST(RoadmapVerb, RefusesWordsThatItCannotUse) {
   refused({"--robot", "one", "--path", "way.csv"}, "--path needs a goal; expected --to X Y beside it");
   refused({"--radius", "0.2", "--to", "1", "1"},
           "--to needs a start; expected --from X Y, or --robot NAME in place of --radius");
-  refused({"--robot", "one", "--to", "-1", "-1", "--path", "way.csv"}, "--path: no way leads from 3 2 to -1 -1");
+  refused({"--robot", "one", "--to", "-1", "-1", "--path", "way.csv"},
+          "--to: no way leads from 3 2 to -1 -1, which lies outside of the plan (x 0 to 6, y 0 to 4 m)");
   refused({"--robot", "one", "--method", "grid", "--step", "0.01", "--room", "50"},
           "world.xml: the lattice has more than a million places; expected a larger step or a smaller area");
   refused({"--radius", "0.2"}, "empty.xml: there is neither a wall nor a robot: no area to plan in", "empty.xml");

@@ -27,7 +27,8 @@ TEST(DatasetFaults, TimeRunsBackwardsWithinAPair) {
   EXPECT_EQ(
       reading(header + "5,a,b,0,0,1,0,-50\n1,a,c,0,0,2,0,-51\n4,a,b,0,0,1,0,-52\n"),
       "d.csv:4:1: row 3: time runs backwards for a -> b at t = 4 s, after 5 s in row 1; expected rows of a pair in the "
-      "order of time");
+      "order of time: are these two runs in one table? expected a "
+      "table each, or the times of the second later: 4 s as more than 5 s");
 }
 
 TEST(DatasetFaults, LevelsThatNoReceiverGives) {
@@ -154,7 +155,11 @@ TEST(DatasetFaults, ConstantColumns) {
 TEST(DatasetFaults, MissingColumnAndWrongUnit) {
   EXPECT_EQ(reading("t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rssi[dBm]\n0,a,b,0,0,1,-50\n"),
             "d.csv:1:1: no column \"rx_y[m]\" in the table, which has t, tx, rx, tx_x, tx_y, rx_x, rssi; did you "
-            "mean \"tx_y\"?; muster import FILE --map MAP renames columns");
+            "mean \"tx_y\"?; muster import FILE --map MAP --out FILE makes such a table of this one");
+  EXPECT_EQ(reading("time,x,y,rssi\n0,1,2,-50\n"),
+            "d.csv:1:1: no columns \"tx\", \"rx\", \"tx_x[m]\", \"tx_y[m]\", \"rx_x[m]\", \"rx_y[m]\" in the table, "
+            "which has time, x, y, rssi; expected tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]; muster import FILE "
+            "--map MAP --out FILE makes such a table of this one");
   EXPECT_EQ(reading("tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[mW]\na,b,0,0,1,0,50\n"),
             "d.csv:1:39: column \"rssi[mW]\" has the wrong unit; expected \"rssi[dBm]\": 10 log10 of the milliwatts");
 }

@@ -238,7 +238,8 @@ TEST_F(Missions, ABeaconToItselfIsWarnedOf) {
   const Simulation sim = run("<wait seconds='1'/>", "<control.beacon name='calls' radio='base' to='base'/>");
   const std::vector<std::string> events = said(sim, "calls");
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_THAT(events[0], testing::EndsWith("attribute \"to\": it speaks to itself; expected another radio"));
+  EXPECT_THAT(events[0], testing::EndsWith("attribute \"to\": \"base\" is the radio that it speaks on, so that nobody "
+                                           "hears it; expected another radio, or no \"to\", which is all"));
 }
 
 TEST_F(Missions, AHeadingThatLooksLikeDegreesIsWarnedOf) {

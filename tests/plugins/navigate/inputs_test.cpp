@@ -111,6 +111,24 @@ TEST(NavigateInputs, WhatIsWrongIsNamedOnce) {
   EXPECT_EQ(refusal("", {}), "");
 }
 
+TEST(NavigateInputs, GoalsThatNoWayLeadsToAreWarnedOfByTheirRows) {
+  const auto warnings = [](const std::string& goals) {
+    const Folder folder;
+    Simulation run = navigating(folder, goals, "", "");
+    run.step(), run.step();
+    std::string result;
+    for (const auto& event : run.events())
+      if (const auto at = event.message.find("goals.csv:"); at != std::string::npos)
+        result += event.message.substr(at) + '\n';
+    return result;
+  };
+  EXPECT_EQ(warnings("3,1\n7,1\n"), "");
+  EXPECT_THAT(warnings("3,1\n30,40\n"),
+              testing::StartsWith("goals.csv:3:1: no way to 30.00 40.00: no way leads from 3 1 to 30 40, which lies "
+                                  "outside of the plan (x 0 to 8, y "));
+  EXPECT_THAT(warnings("30,40\n"), testing::StartsWith("goals.csv:2:1: no way to 30.00 40.00: no way leads from "));
+}
+
 TEST(NavigateInputs, ARobotWithoutALaserCannotUseOne) {
   const Folder folder;
   try {
@@ -120,7 +138,7 @@ TEST(NavigateInputs, ARobotWithoutALaserCannotUseOne) {
              {{"goals.csv", "x[m],y[m]\n7,1\n"}}, minutes);
     FAIL();
   } catch (const Error& e) {
-    EXPECT_THAT(std::string(e.what()), testing::HasSubstr("the robot has no laser"));
+    EXPECT_THAT(std::string(e.what()), testing::HasSubstr(") has no laser; expected fittings="));
   }
 }
 

@@ -91,11 +91,16 @@ TEST(Navigate, AGoalWithoutAWayIsOneClearMessage) {
     EXPECT_EQ(state_of(run).status, 3);
     EXPECT_EQ(row<Pose>(run, "robot/rover/pose").x, 1) << "it stays";
     EXPECT_GT(state_of(run).plans, 10) << "it tries again each second";
-    return said(run);
+    std::vector<std::string> told = said(run);
+    for (std::string& each : told) each = folder.inside(each);
+    return told;
   };
-  EXPECT_THAT(events("7,3.9\n"), ElementsAre("no way to 7.00 3.90: the goal 7 3.9 is 0.05 m from a wall; expected at "
-                                             "least the radius, 0.2024 m, on all sides"));
-  EXPECT_THAT(events("9,9\n"), ElementsAre("no way to 9.00 9.00: no way leads from 1 1 to 9 9"));
+  EXPECT_THAT(events("7,3.9\n"),
+              ElementsAre("warning: goals.csv:2:1: no way to 7.00 3.90: the goal 7 3.9 is 0.05 m from "
+                          "a wall; expected at least the radius, 0.2024 m, on all sides"));
+  EXPECT_THAT(events("9,9\n"),
+              ElementsAre("warning: goals.csv:2:1: no way to 9.00 9.00: no way leads from 1 1 to 9 9, which "
+                          "lies outside of the plan (x 0 to 8, y 0 to 4 m)"));
 }
 
 TEST(Navigate, GoesToRowsInTurnAndAnew) {

@@ -90,17 +90,18 @@ std::vector<std::string> warnings(const std::string& csv) {
   run.step();
   std::vector<std::string> result;
   for (const auto& event : run.events())
-    if (const auto at = event.message.find("measured poses"); at != std::string::npos)
-      result.push_back(event.message.substr(at));
+    if (const auto at = event.message.find(": robot 'a'"); at != std::string::npos)
+      result.push_back(event.message.substr(event.message.rfind(".csv:", at)));
   return result;
 }
 
 TEST(Replay, DegreesAndJumpsAreWarnedOfOnce) {
-  const std::string head = "t[s],robot,x[m],y[m],yaw[rad]\n", row = "measured poses, row ";
+  const std::string head = "t[s],robot,x[m],y[m],yaw[rad]\n", row = ".csv:3:1: robot 'a': ";
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,90\n2,a,1,1,180\n"),
-            std::vector<std::string>({row + "2 (robot 'a'): 90 rad is more than a full turn; are these degrees?"}));
+            std::vector<std::string>({row + "90 rad is more than a full turn; are these degrees? 90 degrees are "
+                                            "1.5708 rad"}));
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n0.01,a,500,0,0\n"),
-            std::vector<std::string>({row + "2 (robot 'a'): it moves by 500 m in 0.01 s"}));
+            std::vector<std::string>({row + "it moves by 500 m in 0.01 s"}));
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,6.28\n"), std::vector<std::string>());
 }
 
@@ -130,11 +131,11 @@ TEST(Replay, WrongRowsAreNamed) {
   using testing::HasSubstr;
   const std::string head = "t[s],robot,x[m],y[m],z[m],yaw[rad]\n";
   EXPECT_THAT(refusal(head + "0,a,0,0,0,0\n1,b,0,0,0,0\n0,a,1,0,0,0\n"),
-              HasSubstr("measured poses, row 3 (robot 'a'): time does not rise"));
+              HasSubstr(".csv:4:1: robot 'a': time does not rise"));
   EXPECT_THAT(refusal(head + "0,a,0,0,0,0\n1,a,0,0,,0\n"),
-              HasSubstr("row 2 (robot 'a'): z is given in some rows only"));
+              HasSubstr(".csv:3:1: robot 'a': z is given in some rows only"));
   EXPECT_THAT(refusal(head + "0,a,0,0,0,\n"),
-              HasSubstr("row 1 (robot 'a'): has neither yaw nor qw, qx, qy, qz of length 1: it has none of them"));
+              HasSubstr(".csv:2:1: robot 'a': has neither yaw nor qw, qx, qy, qz of length 1: it has none of them"));
   EXPECT_THAT(refusal("t[s],robot,x[m],y[m],qw,qx,qy\n0,a,0,0,1,0,0\n"), HasSubstr("of length 1: qz is missing"));
   EXPECT_THAT(refusal("t[s],robot,x[m],y[m],qw,qx,qy,qz\n0,a,0,0,0,0,0,0\n"),
               HasSubstr("of length 1: its length is 0"));

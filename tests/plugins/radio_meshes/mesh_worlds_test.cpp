@@ -147,15 +147,15 @@ TEST(MeshWorld, SaysWhatIsWrong) {
             "world.xml:5:19: meshes (radio.meshes): mesh \"m\" is not closed: the edge "
             "from 0.000 0.000 0.000 to 0.000 1.000 0.000 has 1 triangle; expected a closed surface, or kind=\"sheet\"");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"empty.stl\" material=\"stone\"/>"),
-            "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"empty.stl\" is empty");
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\": the file \"empty.stl\" is empty");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"page.obj\" material=\"stone\"/>"),
-            "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"page.obj\" is an HTML page, "
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\": the file \"page.obj\" is an HTML page, "
             "not a mesh");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"absent.obj\" material=\"stone\"/>"),
-            "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"absent.obj\" cannot be "
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\": the file \"absent.obj\" cannot be "
             "opened: No such file or directory");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"/pillar.obj\" material=\"stone\"/>"),
-            "world.xml:5:19: meshes (radio.meshes): create failed: mesh \"m\": the file \"/pillar.obj\" is outside the "
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\": the file \"/pillar.obj\" is outside the "
             "allowed folder; expected a path relative to .");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"pillar.obj\" material=\"stone\" scale=\"1000\"/>"),
             "world.xml:5:19: meshes (radio.meshes): mesh \"m\" reaches beyond 1 km; "

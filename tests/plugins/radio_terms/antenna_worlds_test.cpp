@@ -149,10 +149,9 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
   folder.put("phase.csv", "azimuth[rad],elevation[rad],gain[dBi],phase[rad]\n0,0,0,0\n");
   EXPECT_EQ(refusal("<radio.antenna pattern=\"table\" file=\"phase.csv\"/>"),
             "phase.csv:1:39: column \"phase\" means nothing here; expected one of azimuth, elevation, gain");
-  EXPECT_EQ(
-      refusal("<radio.antenna file=\"full.csv\"/>"),
-      "world.xml:4:1: radio.antenna (radio.antenna): create failed: attribute \"file\": only pattern=\"table\" reads "
-      "one");
+  EXPECT_EQ(refusal("<radio.antenna file=\"full.csv\"/>"),
+            "world.xml:4:1: radio.antenna (radio.antenna): attribute \"file\": only pattern=\"table\" reads "
+            "one");
   EXPECT_EQ(
       refusal("<radio.antenna pattern=\"table\" file=\"full.csv\"/>"),
       "world.xml:4:1: radio.antenna (radio.antenna): attribute \"file\": it "

@@ -243,7 +243,7 @@ TEST(Attitude, CommandsMustRiseInTime) {
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::invalid_input);
-    EXPECT_THAT(error.what(), testing::HasSubstr("commands, row 2: t does not rise"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("steps.csv:3:1: t does not rise"));
   }
 }
 

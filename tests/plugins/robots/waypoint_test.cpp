@@ -54,6 +54,26 @@ TEST(Waypoint, ColumnsThatNobodyReadsAreRefused) {
             "path.csv:1:1: has no rows below its header; expected one at least");
 }
 
+// Way points of PX4, whose z is down.
+TEST(Waypoint, PlacesBelowTheGroundAreWarnedOf) {
+  const auto warnings = [](const std::string& path) {
+    Folder folder;
+    Simulation run = world_of(folder,
+                              "<robot name=\"r\" at=\"0 0 0\"/><test.turner/>"
+                              "<control.path3d robot=\"r\" path=\"path.csv\"/>",
+                              {{"path.csv", path}});
+    run.step();
+    std::string result;
+    for (const auto& event : run.events())
+      if (event.message.find("path.csv:") != std::string::npos) result += folder.inside(event.message) + '\n';
+    return result;
+  };
+  EXPECT_EQ(warnings("x[m],y[m],z[m]\n0,0,0\n3,0,1\n"), "");
+  EXPECT_EQ(warnings("x[m],y[m],z[m]\n0,0,0\n3,0,-1.5\n3,2,-2\n"),
+            "warning: path.csv:3:1: z = -1.5 m is below the ground, in 2 way points; is z down here, as in PX4 (NED)? "
+            "expected metres up, and x east, y north\n");
+}
+
 TEST(Waypoint, LoopsWhereAsked) {
   Folder folder;
   Simulation run = world_of(folder,

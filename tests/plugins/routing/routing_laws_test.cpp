@@ -86,6 +86,29 @@ TEST_F(Static, ATableThatGoesRoundEndsWithTheTimeToLive) {
   EXPECT_EQ(sum_of(sim, "radio/*/relaying", relayed), 7);
 }
 
+TEST_F(Static, LoopsAndWaysThatEndAreWarnedOf) {
+  const auto warnings = [&](const std::string& rows) {
+    folder.put("routes.csv", "at,to,next\n" + rows);
+    Simulation sim = world("network.ideal", "routing.static routes=\"routes.csv\"", chain(4) + send("s", "r0"));
+    sim.step();
+    std::string result;
+    for (const auto& event : sim.events())
+      if (const auto at = event.message.find("routes.csv:"); at != std::string::npos)
+        result += event.message.substr(at) + '\n';
+    return result;
+  };
+  EXPECT_EQ(warnings("r0,r2,r1\nr1,r2,r2\nr2,r0,r1\nr1,r0,r0\n"), "");
+  EXPECT_EQ(warnings("r0,r2,r1\nr1,r2,r0\n"),
+            "routes.csv:3:1: messages for \"r2\" go r0, r1, r0: a loop, in which each ends as ttl_expired; expected "
+            "r1,r2,NEXT with another NEXT than r0, such as r2 itself\n");
+  EXPECT_EQ(warnings("r0,r3,r1\nr1,r3,r2\nr2,r3,r1\n"),
+            "routes.csv:4:1: messages for \"r3\" go r1, r2, r1: a loop, in which each ends as ttl_expired; expected "
+            "r2,r3,NEXT with another NEXT than r1, such as r3 itself\n");
+  EXPECT_EQ(warnings("r0,r2,r1\n"),
+            "routes.csv:2:1: messages for \"r2\" go r0, r1, which has no row for it, so that each ends there as "
+            "no_route; expected a row r1,r2,NEXT\n");
+}
+
 TEST_F(Static, RefusesATableThatCannotBe) {
   const auto error = [&](const std::string& rows, const std::string& header = "at,to,next\n") {
     folder.put("routes.csv", header + rows);
@@ -98,12 +121,13 @@ TEST_F(Static, RefusesATableThatCannotBe) {
     return std::string("no error");
   };
   using testing::HasSubstr;
-  EXPECT_THAT(error("r0,r2,r0\n"), HasSubstr("routes, row 1: r0 sends to itself; expected another radio as next"));
+  EXPECT_THAT(error("r0,r2,r0\n"), HasSubstr("routes.csv:2:1: r0 sends to itself; expected another radio as next"));
   EXPECT_THAT(error("r0,r2,r1\nr2,r2,r1\n"),
-              HasSubstr("routes, row 2: r2 is where the message is for; expected a radio "
+              HasSubstr("routes.csv:3:1: r2 is where the message is for; expected a radio "
                         "that still has to send it"));
-  EXPECT_THAT(error("r0,r2,r1\nr0,r2,r2\n"), HasSubstr("routes, row 2: r0 has a row for r2 already; expected one"));
-  EXPECT_THAT(error("r0,,r1\nr0,,r2\n"), HasSubstr("routes, row 2: r0 has a row for all others already; expected one"));
+  EXPECT_THAT(error("r0,r2,r1\nr0,r2,r2\n"), HasSubstr("routes.csv:3:1: r0 has a row for r2 already; expected one"));
+  EXPECT_THAT(error("r0,,r1\nr0,,r2\n"),
+              HasSubstr("routes.csv:3:1: r0 has a row for all others already; expected one"));
   EXPECT_THAT(error("r0,r9,r1\n"), HasSubstr("routes.csv:2"));
   EXPECT_THAT(error("r0,r2,r1\n", "at,too,next\n"),
               HasSubstr("routes.csv:1:4: column \"too\" means nothing here; expected one of at, to, next; did you mean "

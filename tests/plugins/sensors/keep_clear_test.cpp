@@ -145,10 +145,15 @@ TEST(KeepClear, NeedsALaser) {
              "<robots.drive/><control.keep_clear robot=\"r\"/>");
     FAIL() << "expected a refusal";
   } catch (const std::exception& refused) {
-    EXPECT_NE(
-        std::string(refused.what()).find("the robot has no laser: its model has no <sensor> with a <ray> and a range"),
-        std::string::npos)
-        << refused.what();
+    const std::string what = refused.what();
+    EXPECT_NE(what.find("control.keep_clear (control.keep_clear): the model \"crate\" of robot \"r\" ("),
+              std::string::npos)
+        << what;
+    EXPECT_NE(what.find(") has no laser; expected fittings=\"FILE\" at the robot, with a <sensor> with a <ray> and, in "
+                        "<muster>, <laser sensor=\"...\" min_range=\"...\" max_range=\"...\"/>, or a model that has "
+                        "one: scarab, waffle"),
+              std::string::npos)
+        << what;
   }
 }
 

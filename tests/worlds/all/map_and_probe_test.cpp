@@ -160,8 +160,10 @@ TEST(RssiMap, RefusesWhatIsNoRadioAndNoArea) {
   folder.write("world.xml", world_of(walls + radios));
   expect_error(folder.muster({"map", "world.xml", "--from", "fat", "--out", "map"}), 2,
                "--from: no radio is called \"fat\"; expected one of a, b, far; did you mean \"far\"?");
-  expect_error(folder.muster({"map", "world.xml", "--area", "1", "2", "1", "3", "--out", "map"}), 2,
-               "--area: 1 2 1 3: X0 and X1 are both 1; expected X0 Y0 X1 Y1, two corners");
+  expect_error(
+      folder.muster({"map", "world.xml", "--area", "1", "2", "1", "3", "--out", "map"}), 2,
+      "--area: 1 2 1 3: X0 and X1 are both 1; expected X0 Y0 X1 Y1, two corners, X0 < X1 and Y0 < Y1; did you mean "
+      "--area 1 1 2 3? (from its order X0 X1 Y0 Y1)");
 }
 
 }  // namespace

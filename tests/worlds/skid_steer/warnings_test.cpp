@@ -55,11 +55,12 @@ TEST(RobotWarnings, OfADescriptionComeOnce) {
       warnings(folder,
                "<robot name=\"r\" model=\"cart.urdf\" at=\"0 0 0\"/><physics.ode/><robots.odometry/>"
                "<sensors.laser/><control.steady robot=\"r\" v=\"0.1\" w=\"0\"/>"),
-      ElementsAre("cart.urdf:1: its drive is taken from its wheels' joints, with defaults for what is not there; "
-                  "to set it, write <muster><differential left=\"l_joint\" right=\"r_joint\" wheel_radius=\"0.1\" "
-                  "wheel_base=\"0.5\" max_torque=\"1.57\" max_speed=\"10\" max_acceleration=\"10\" "
-                  "friction=\"0.8\"/></muster>",
-                  testing::HasSubstr("no robot's model has a laser")));
+      ElementsAre(
+          "warning: cart.urdf:1: its drive is taken from its wheels' joints, with defaults for what is not there; "
+          "to set it, write <muster><differential left=\"l_joint\" right=\"r_joint\" wheel_radius=\"0.1\" "
+          "wheel_base=\"0.5\" max_torque=\"1.57\" max_speed=\"10\" max_acceleration=\"10\" "
+          "friction=\"0.8\"/></muster>",
+          testing::HasSubstr("no robot's model has a laser")));
 }
 
 TEST(RobotWarnings, StartsInAWallOrARobot) {
