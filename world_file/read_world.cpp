@@ -31,7 +31,7 @@ void check_root(const std::string& name, const Place& place) {
                 "the root element is <" + name + ">" + (other == others.end() ? "; expected <world>" : other->second));
 }
 
-const std::string walls_of_a_file =
+const std::string plan_of_a_file =
     "; expected the elements themselves, or <walls file=\"walls.csv\"/>, a table name,x0[m],y0[m],x1[m],y1[m],material";
 
 void read_root(const XmlElement& root, World& world) {
@@ -56,7 +56,7 @@ void read_root(const XmlElement& root, World& world) {
       throw invalid(given.place, "a world has no namespaces (" + given.name + ")" +
                                      (given.value.find("XInclude") == given.value.npos
                                           ? "; expected <world> without it"
-                                          : ", and includes no files: it is one file" + walls_of_a_file));
+                                          : ", and includes no files: it is one file" + plan_of_a_file));
     } else {
       refuse_unknown(given, "world", valid);
     }
@@ -87,7 +87,7 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
 }
 
 // The model that is like that of Gazebo in a text such as "model://turtlebot3_waffle"; "..." where none is known.
-std::string robot_model(std::string_view text) {
+std::string model_meant_by(std::string_view text) {
   static const std::vector<std::string> likely = {"waffle", "husky", "scarab", "hummingbird", "f1tenth", "youbot"};
   for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
     to = std::min(text.find_first_of("/:_-. ", from), text.size());
@@ -108,8 +108,8 @@ std::string foreign_element(const std::string& name, std::string_view text = "")
            "drive and its laser, needs none: leave it out";
   if (name == "include")
     return ", which is one file and takes no models of Gazebo; expected <robot name=\"...\" model=\"" +
-           robot_model(text) + "\" at=\"0 0 0\"/>, a model of muster or a URDF file";
-  if (name == "xi:include") return ", which is one file and includes no others" + walls_of_a_file;
+           model_meant_by(text) + "\" at=\"0 0 0\"/>, a model of muster or a URDF file";
+  if (name == "xi:include") return ", which is one file and includes no others" + plan_of_a_file;
   if (name == "light" || name == "scene" || name == "gui") return "; leave it out";
   if (name == "physics" || name == "gravity") return "; the physics is a plugin, such as <physics.simbody/>";
   if (name == "node")

@@ -93,7 +93,8 @@ TEST(ClosedForms, ARoomWithoutADoorIsAComponentOfItsOwn) {
                            0.3);
   for (const rm::Graph& graph : {rm::visibility_graph(room, everywhere), rm::lattice(room, {-2, -2, 8, 8}, 0.5)}) {
     EXPECT_EQ(rm::count_of(rm::components_of(graph)), 2u);
-    EXPECT_EQ(rm::route(graph, room, {1, 1}, {-1.5, -1.5}).fault, "no way leads from 1 1 to -1.5 -1.5");
+    EXPECT_EQ(rm::route(graph, room, {1, 1}, {-1.5, -1.5}).fault,
+              "no way leads from 1 1 to -1.5 -1.5, which lies outside of the plan (x 0 to 6, y 0 to 6 m)");
     EXPECT_EQ(rm::route(graph, room, {3, 1}, {3, 5}).fault, "");
   }
 }
