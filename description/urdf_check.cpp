@@ -34,7 +34,8 @@ std::string missing_number(const XMLElement& element, const Numbers& rule, const
                            const std::string& otherwise) {
   const XMLElement* inside = element.FirstChildElement(rule.attribute);
   const char* text = inside ? inside->GetText() : element.GetText();
-  const auto values = parse_numbers(text ? text : "");
+  if (!text) return otherwise;
+  const auto values = parse_numbers(text);
   if (!values || values->size() != rule.count) return otherwise;
   const std::string own(text);
   const auto first = own.find_first_not_of(" \t\r\n"), last = own.find_last_not_of(" \t\r\n");

@@ -139,7 +139,9 @@ std::vector<std::string> Linker::unread() const {
     if (set && set->kind == SetKind::fixed && told.insert(row.set).second && !is_minded(row.set))
       result.push_back(row.place.text() + ": nobody reads the world's " + row.set + " rows, which do nothing");
   }
-  for (const auto& [logical, c] : claimed_) {
+  for (const auto& entry : claimed_) {
+    const auto& logical = entry.first;
+    const auto& c = entry.second;
     const auto is_record = [&](const auto& record) { return record.table == logical; };
     if (!c.readers.empty() || std::any_of(world_.records.begin(), world_.records.end(), is_record)) continue;
     std::set<const Instance*> silent;  // of several rows that one instance writes, the first is named

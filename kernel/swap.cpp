@@ -153,7 +153,9 @@ bool Simulation::is_claimed(const std::string& set) const {
 // Drops the private sets of instances that no longer exist, and sets on demand that nobody claims any more.
 void Simulation::drop_private_sets() {
   std::vector<std::string> unused;
-  for (const auto& [name, set] : board_.sets()) {
+  for (const auto& entry : board_.sets()) {
+    const auto& name = entry.first;
+    const auto& set = entry.second;
     const bool is_used = std::any_of(board_.tables().begin(), board_.tables().end(),
                                      [&](const auto& table) { return &table.second->set() == set.get(); });
     const auto* known = standard_set(standard_, name);

@@ -125,7 +125,7 @@ std::string by_part(std::string_view wrong, const std::vector<std::string>& vali
   constexpr std::size_t telling = 2;  // letters
   const auto parts = parts_of(wrong);
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-    const std::string meant = part->size() < telling ? "" : synonym(*part, valid);
+    std::string meant = part->size() < telling ? "" : synonym(*part, valid);
     if (!meant.empty()) return meant;
   }
   std::string found;

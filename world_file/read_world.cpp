@@ -91,12 +91,12 @@ std::string model_meant_by(std::string_view text) {
   static const std::vector<std::string> likely = {"waffle", "husky", "scarab", "hummingbird", "f1tenth", "youbot"};
   for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
     to = std::min(text.find_first_of("/:_-. ", from), text.size());
-    const std::string word(text.substr(from, to - from));
+    std::string word(text.substr(from, to - from));
     if (std::find(likely.begin(), likely.end(), word) != likely.end()) return word;
   }
   for (std::size_t from = 0, to = 0; from < text.size(); from = to + 1) {
     to = std::min(text.find_first_of("/:_-. ", from), text.size());
-    if (const std::string like = synonym(text.substr(from, to - from), likely); !like.empty()) return like;
+    if (std::string like = synonym(text.substr(from, to - from), likely); !like.empty()) return like;
   }
   return "...";
 }
