@@ -42,23 +42,6 @@ std::string joined(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).lexically_normal().generic_string();
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (c == '\'')
-      result += "&apos;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 // The byte at that line and character.
 std::size_t offset_of(const std::string& text, const Place& place) {
   std::size_t at = 0;
@@ -176,7 +159,7 @@ void WorldFiles::read_named_in(const fs::path& source, const std::string& name) 
   });
   for (const Edit& edit : edits) {
     const std::size_t at = offset_of(text, edit.place);
-    text.replace(at, text.find(text.at(at - 1), at) - at, escaped(edit.value));
+    text.replace(at, text.find(text.at(at - 1), at) - at, xml_escaped(edit.value));
   }
   files_[name].text = std::move(text);
 }

@@ -7,33 +7,19 @@
 #include <map>
 
 #include "text/number.hpp"
+#include "text/xml.hpp"
 #include "world_file/params.hpp"
 #include "world_file/world.hpp"
 
 namespace muster::cli {
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string documentation(const std::string& text) {
-  return "<xs:annotation><xs:documentation>" + escaped(text) + "</xs:documentation></xs:annotation>";
+  return "<xs:annotation><xs:documentation>" + xml_escaped(text) + "</xs:documentation></xs:annotation>";
 }
 
 std::string facet(const char* name, const std::string& value) {
-  return fmt::format("<xs:{} value=\"{}\"/>", name, escaped(value));
+  return fmt::format("<xs:{} value=\"{}\"/>", name, xml_escaped(value));
 }
 
 std::string restriction(const std::string& base, const std::string& facets) {
@@ -90,7 +76,7 @@ std::string attribute_of(const muster_param& param, int count) {
   if (!initial.empty()) about += "; default " + initial;
   return fmt::format("      <xs:attribute name=\"{}\"{}{}>{}{}</xs:attribute>\n", param.name,
                      param.flags & MUSTER_REQUIRED ? " use=\"required\"" : "",
-                     initial.empty() ? "" : " default=\"" + escaped(initial) + '"', documentation(about),
+                     initial.empty() ? "" : " default=\"" + xml_escaped(initial) + '"', documentation(about),
                      type_of(param, count));
 }
 

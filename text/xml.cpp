@@ -66,4 +66,21 @@ XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root, con
   return root;
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (c == '\'')
+      result += "&apos;";
+    else
+      result += c;
+  }
+  return result;
+}
+
 }  // namespace muster

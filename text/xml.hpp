@@ -35,6 +35,9 @@ using CheckRoot = void (*)(const std::string& name, const Place& place);
 // there, the root first; "" for what is said of any file.
 using InPlaceOfText = std::function<std::string(const std::vector<std::string_view>& open, std::string_view text)>;
 
+// As the value of an attribute or the text of an element.
+std::string xml_escaped(std::string_view text);
+
 // The root element of a file of UTF-8 text, of at most 16 MB. Throws Error with file, line and column of the fault.
 XmlElement read_xml(const std::filesystem::path& path, CheckRoot check_root = nullptr,
                     const InPlaceOfText& in_place_of_text = {});

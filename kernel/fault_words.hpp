@@ -1,0 +1,31 @@
+// What is done with the words of a fault before a user reads them: names for numbers of rows, places, what is declared.
+#pragma once
+
+#include <muster/plugin.h>
+
+#include <string>
+#include <string_view>
+
+#include "blackboard.hpp"
+#include "loader/library.hpp"
+#include "world_file/world.hpp"
+
+namespace muster {
+
+// A plugin's words may have several lines; a message is one.
+std::string in_one_line(std::string words);
+
+// True where a message begins with a place of its own: "diffbot.urdf:6: ...", "routes.csv:3:1: ...".
+bool has_place(std::string_view words);
+
+// Scenes count rows of tables: "floor row 0: ..." and "wall row 2" become `world.xml:3:3: floor "slab": ...` and
+// `wall "south"`.
+std::string with_names(std::string words, const Blackboard& board, const World& world);
+
+// A file in the world's folder by the path that the user knows it by: as the world's own was given.
+std::string as_given(const std::string& words, const World& world, const Library::SearchPath& folders);
+
+// A plugin that asks for a parameter by a name that it has not declared is told which it has.
+std::string with_declared(const std::string& words, const muster_plugin& plugin);
+
+}  // namespace muster
