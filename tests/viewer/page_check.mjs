@@ -220,6 +220,46 @@ async function check_picture() {
   expect(!begin.bytes.equals(end.bytes), 'the scene looks the same at the start and at the end');
 }
 
+/** Where the sun is high in the south, a wall's shadow lies north of it; fog weakens what is seen by exp(-extinction x distance). */
+async function check_light() {
+  const canvas = await box_of('#canvas');
+  const choose = async (name, change) => {
+    await browser.value(`(() => { const one = document.querySelector('[data-name="${name}"]'); ${change}; one.dispatchEvent(new Event('change')); })()`);
+    await browser.settle();
+  };
+  const colour_at = (picture, {x, y}) => [...pixels_of(picture, {x: Math.round(canvas.x + x), y: Math.round(canvas.y + y), width: 1, height: 1}).bytes.subarray(0, 3)];
+  await seek(0);
+  await browser.value('document.getElementById("top").click()');
+  await browser.settle();
+  const beside = await browser.value(`muster.record.scene.walls.map((wall) => {
+    const {stage} = muster.view, sun = stage.light.sun.position.clone().sub(stage.light.sun.target.position), way = 0.5 * wall.height / sun.z;
+    return [-1, 1].map((side) => stage.on_screen(stage.controls.target.clone().set((wall.from[0] + wall.to[0]) / 2 + side * way * sun.x, (wall.from[1] + wall.to[1]) / 2 + side * way * sun.y, 0)));
+  })`);
+  const shaded = await browser.picture();
+  await choose('Shadows', 'one.checked = false');
+  const bright = await browser.picture();
+  await choose('Shadows', 'one.checked = true');
+  const darker = (place) => colour_at(bright, place)[1] - colour_at(shaded, place)[1];
+  expect(beside.some(([away, near]) => darker(away) > 15 && Math.abs(darker(near)) < 3), `no wall has its shadow on the side away from the sun alone: ${JSON.stringify(beside.map((two) => two.map(darker)))}`);
+  const [with_them, without] = [shaded, bright].map((picture) => pixels_of(picture, canvas).bytes);
+  expect(with_them.every((value, i) => value <= without[i] + 3), 'a shadow makes something brighter');
+
+  await browser.value('(() => { const follow = document.getElementById("follow"); follow.value = follow.options[1].value; follow.dispatchEvent(new Event("change")); })()');
+  await browser.settle();
+  const middle = {x: canvas.width / 2, y: canvas.height / 2}, extinction_by_distance = 0.5;
+  const clear = colour_at(await browser.picture(), middle);
+  await browser.value(`(() => { const {stage} = muster.view; stage.light.set_visibility(3.9 / ${extinction_by_distance} * stage.camera.position.distanceTo(stage.controls.target)); stage.invalidate(); })()`);
+  await browser.settle();
+  const veiled = colour_at(await browser.picture(), middle);
+  const ground = [0xf6, 0xf7, 0xf9];  // of the light theme
+  const sum = (way) => way.reduce((all, value) => all + Math.abs(value), 0);
+  const left = sum(veiled.map((value, i) => value - ground[i])) / sum(clear.map((value, i) => value - ground[i]));
+  expect(sum(clear.map((value, i) => value - ground[i])) > 100, `a followed robot is hardly seen: ${clear}`);
+  expect_near(left, Math.exp(-extinction_by_distance), 0.08, 'the contrast that fog leaves of a robot');
+  await choose('Fog', 'one.value = "0"');
+  await browser.value('document.getElementById("fit").click()');
+}
+
 const line_of_time = `(() => { const over = document.querySelector('.u-over').getBoundingClientRect(), now = document.querySelector('.now').getBoundingClientRect(); return (now.x + 1 - over.x) / over.width; })()`;
 
 async function check_link_to_a_time() {
@@ -258,7 +298,7 @@ try {
   const failure = await browser.value('document.getElementById("failure").textContent');
   expect(failure === '', `the page says "${failure}"`);
   if (!failure) {
-    for (const check of [check_scene, check_framing, check_tables, check_scans, check_time, check_plots, check_keys_and_events, check_picture, check_link_to_a_time, check_bare_record, check_small_screen]) await check();
+    for (const check of [check_scene, check_framing, check_tables, check_scans, check_time, check_plots, check_keys_and_events, check_picture, check_light, check_link_to_a_time, check_bare_record, check_small_screen]) await check();
     writeFileSync(join(folder, 'page.png'), await browser.picture());
   }
   const others = browser.requests.filter((one) => one.replace(/#.*/, '') !== address && !one.endsWith('/bare/run.html'));

@@ -8,6 +8,7 @@ import {Air, Radios} from './scene/air.js';
 import {Building} from './scene/building.js';
 import {Labels, draw_legend} from './scene/labels.js';
 import {Lasers} from './scene/lasers.js';
+import {visibilities} from './scene/light.js';
 import {Robots} from './scene/robots.js';
 import {Stage} from './scene/stage.js';
 
@@ -38,6 +39,7 @@ export class View {
     this.lasers = new Lasers(record, this.stage);
     this.find_box();
     this.building.add_ground(this.stage.box);
+    this.stage.light.cover(this.stage.box);
     this.labels = new Labels(at('labels'), this.stage);
     for (const robot of this.robots.list) this.labels.add(robot.name, 'robot', () => robot.is_there ? robot.point([0, 0, 0.2]) : null, () => series_colour(robot.index));
     for (const station of this.radios.stations) this.labels.add(station.name, 'station', () => new Vector3(...station.at), () => 'var(--ink)');
@@ -150,7 +152,9 @@ export class View {
     this.add_choice('Ways', (on) => { this.robots.ways.visible = on; }, this.robots.ways.children.length ? '' : 'no poses recorded');
     this.add_choice('Names', (on) => { this.labels.shows_names = on; });
     this.add_choice('Marks around robots', (on) => { this.robots.marks.visible = on; });
+    this.add_choice('Shadows', (on) => this.stage.light.set_shadows(on));
     this.add_select('Walls', [['glass', 'see-through'], ['solid', 'solid'], ['lines', 'edges only']], (look) => this.building.set_look(look));
+    this.add_select('Fog', [[0, 'none'], ...visibilities(this.stage.box).map((metres) => [metres, `sight of ${metres} m`])], (metres) => this.stage.light.set_visibility(Number(metres)));
     if (this.record.links.length > 1) {
       this.add_select('RSSI of', this.record.links.map(({name}) => [name, name]), (name) => {
         this.air.source = this.record.links.find((source) => source.name === name);

@@ -136,6 +136,7 @@ export class Building {
     this.wall_material.depthWrite = look === 'solid';
     this.mesh_material.opacity = {glass: 0.55, solid: 1, lines: 0.1}[look];
     this.mesh_material.depthWrite = look === 'solid';
+    for (const mesh of this.group.children) if (mesh.material === this.wall_material || mesh.material === this.mesh_material) mesh.castShadow = look !== 'lines';
     this.look = look;
   }
 

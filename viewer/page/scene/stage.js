@@ -1,8 +1,9 @@
-// Camera, lights and the moment of drawing. It draws when something has changed and rests otherwise.
+// Camera, light and the moment of drawing. It draws when something has changed and rests otherwise.
 
-import {AmbientLight, Box3, Color, DirectionalLight, HemisphereLight, Object3D, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from 'three';
+import {Box3, Color, Object3D, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 import {themed} from '../colours.js';
+import {Light} from './light.js';
 
 Object3D.DEFAULT_UP.set(0, 0, 1);  // as in the world: x east, y north, z up
 
@@ -19,10 +20,7 @@ export class Stage {
     this.camera = new PerspectiveCamera(40, 1, 0.05, 5000);
     this.renderer = new WebGLRenderer({canvas, antialias: true});
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.scene.add(new HemisphereLight(0xffffff, 0x8a8f98, 1.6), new AmbientLight(0xffffff, 0.5));
-    const sun = new DirectionalLight(0xffffff, 1.5);
-    sun.position.set(-0.6, -1, 2);
-    this.scene.add(sun);
+    this.light = new Light(this);
     this.box = new Box3();
     this.before_drawing = [];
     this.controls = new OrbitControls(this.camera, canvas);
@@ -65,6 +63,7 @@ export class Stage {
 
   recolour() {
     this.scene.background = new Color(themed('--ground'));
+    this.light.recolour();
     this.invalidate();
   }
 
