@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
+#include "diagnosis/pipeline/cause_files.hpp"
 #include "diagnosis/pipeline/exchanged_identity.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/first_cause.hpp"
@@ -22,7 +23,6 @@
 #include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
 #include "diagnosis/radio/thresholds.hpp"
-#include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 
 namespace muster::diagnosis {
@@ -125,7 +125,7 @@ class Diagnoser {
       out.causes.back().sought_as = f.id;
       out.causes.back().effect = effect_of(state, candidate->candidate, finding);
       places.push_back(places_of(*candidate->shape, finding));
-      give_tables(*candidate->shape, out.causes.back());
+      give_files(*candidate->shape, setup_.data, out.causes.back());
     }
     setup_.run->clear();
     for (const CauseCandidate& c : causes.found) out.searched.push_back(c.candidate.id);
@@ -242,40 +242,6 @@ class Diagnoser {
       return std::tuple(a.status, -gain(a), -a.lambda) < std::tuple(b.status, -gain(b), -b.lambda);
     });
     std::sort(out.searched.begin(), out.searched.end());
-  }
-
-  // Gives a cause that reads a table the measured columns that it needs.
-  void give_tables(const CauseShape& shape, CauseEstimate& found) const {
-    const muster_param* file = shape.cause.file();
-    if (!file) return;
-    const std::string column = own_column(shape.cause);
-    if (column == "walls") {
-      found.files[file->name] = counts_of_walls();
-      return;
-    }
-    const auto values = std::find_if(setup_.data.covariates.begin(), setup_.data.covariates.end(),
-                                     [&](const Covariate& c) { return c.name.substr(0, c.name.find('[')) == column; });
-    const bool timed = !setup_.data.t.empty();
-    std::string text = (timed ? "t[s],tx,rx," : "tx,rx,") + values->name + '\n';
-    for (std::size_t row = 0; row < setup_.data.rows(); ++row)
-      text += (timed ? print_real(setup_.data.t[row]) + ',' : "") + setup_.data.tx.levels[setup_.data.tx.level[row]] +
-              ',' + setup_.data.rx.levels[setup_.data.rx.level[row]] + ',' + print_real(values->values[row]) + '\n';
-    found.files[file->name] = text;
-  }
-
-  // The columns walls_MATERIAL, in the order of the readings.
-  std::string counts_of_walls() const {
-    std::vector<const Covariate*> columns;
-    std::string text;
-    for (const Covariate& c : setup_.data.covariates) {
-      if (c.name.rfind("walls_", 0) != 0 || c.values.empty()) continue;
-      text += (columns.empty() ? "" : ",") + c.name;
-      columns.push_back(&c);
-    }
-    for (std::size_t row = 0; row < setup_.data.rows(); ++row) {
-      for (const Covariate* c : columns) text += (c == columns[0] ? "\n" : ",") + print_real(c->values[row]);
-    }
-    return text + '\n';
   }
 
   VectorXd measured(const inference::ModelState& state) const {

@@ -127,7 +127,7 @@ async function check_malformed() {
   await said('{"op":"unsubscribe","subscriptionIds":[900]}', /no subscription 900/, 1);
   await said('{"op":"advertise","channels":[]}', /clientPublish/);
   await said('{"op":"fetchAsset","uri":"file:///etc/passwd","requestId":1}', /assets/);
-  await said('{"op":"getParameters","parameterNames":["radio.multiwall/m"]}', /did you mean \\?"radio.multiwall\/n/, 1);
+  await said('{"op":"getParameters","parameterNames":["radio.multiwall/tx_powr"]}', /did you mean \\?"radio.multiwall\/tx_power/, 1);
   await said('{"op":"setParameters","parameters":[{"name":"radio.multiwall/n","value":-5}]}', /out of bounds/);
   await said('{"op":"setParameters","parameters":[{"name":"radio.multiwall/n","value":"x"}]}', /a number/);
   await said(Buffer.from([]), /without a byte/);
