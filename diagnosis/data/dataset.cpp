@@ -8,6 +8,7 @@
 
 #include "diagnosis/data/clock.hpp"
 #include "diagnosis/data/dataset_checks.hpp"
+#include "diagnosis/data/sent_power.hpp"
 #include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -216,6 +217,7 @@ Dataset read_dataset(std::shared_ptr<const TextTable> read) {
   data.rx_yaw = reals_if_any(table, "rx_yaw", "rad");
   check_readings(data);
   read_covariates(data);
+  refer_to_one_power(data);
   return data;
 }
 

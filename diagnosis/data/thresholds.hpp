@@ -18,6 +18,17 @@ inline constexpr double strongest_level = 30;
 // dBm; below which no level is read, thermal noise in 1 Hz; derived; DatasetFaults.LevelsThatNoReceiverGives
 inline constexpr double weakest_level = -174;
 
+// powers
+
+// powers; that a radio may be set to, beyond which its column is another quantity; chosen; none
+inline constexpr std::size_t most_powers = 32;
+// dB; between the lowest and the highest: amplifiers are off by less; chosen; SentPower.SmallStepsMayBeErrors
+inline constexpr double least_span_of_powers = 6;
+// readings; for each power; chosen; none
+inline constexpr long readings_a_power = 10;
+// share; of the span by which levels may be off the powers, root of the mean square; chosen; SentPower.*
+inline constexpr double off_the_power = 0.12;
+
 // clocks
 
 // stamps; fewest of which one may be wild; chosen; none

@@ -31,6 +31,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+void in_order(Diagnosis& out) {
+  std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
+    const auto gain = [](const CauseEstimate& c) { return c.held_out ? c.held_out->gain : 0; };
+    return std::tuple(a.status, -gain(a), -a.lambda) < std::tuple(b.status, -gain(b), -b.lambda);
+  });
+  std::sort(out.searched.begin(), out.searched.end());
+}
+
 Diagnosis interrupted(Diagnosis found) {
   found.interrupted = true;
   found.notes.emplace_back(
@@ -236,14 +244,6 @@ class Diagnoser {
     in_order(out);
   }
 
-  static void in_order(Diagnosis& out) {
-    std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
-      const auto gain = [](const CauseEstimate& c) { return c.held_out ? c.held_out->gain : 0; };
-      return std::tuple(a.status, -gain(a), -a.lambda) < std::tuple(b.status, -gain(b), -b.lambda);
-    });
-    std::sort(out.searched.begin(), out.searched.end());
-  }
-
   VectorXd measured(const inference::ModelState& state) const {
     const VectorXd offset = setup_.base.offset()(setup_.used.rows);
     return state.y() + state.rows().mean(offset);
@@ -302,6 +302,22 @@ void add_searched(const OwnWorldVerdict& verdict, Diagnosis& out) {
   out.not_tested.insert(out.not_tested.end(), verdict.not_tested.begin(), verdict.not_tested.end());
 }
 
+// Adds blockage to what was found without the readings that it blocked. It was judged before: where it is small and
+// outweighed by another cause, it may be what that one had left over.
+void add_blockage(CauseEstimate blockage, Diagnosis& found) {
+  blockage.effect = VectorXd::Zero(found.rows);
+  const bool is_outweighed = std::any_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) {
+    return c.status == inference::Status::named && c.evidence > blockage.evidence;
+  });
+  const bool is_doubtful = is_outweighed && blockage.lambda < thresholds::sure_blockage;
+  if (is_doubtful) {
+    blockage.status = inference::Status::suspected;
+    blockage.doubt = "small, and seen before the other causes were known: it may be what they had left over";
+  }
+  found.causes.insert(found.causes.begin(), std::move(blockage));
+  if (is_doubtful) in_order(found);
+}
+
 }  // namespace
 
 // A fault of the map or the log that is likelier in a world of its own is corrected first. A radio in the wrong place
@@ -356,8 +372,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     result.searched = found.searched;
     return result;
   }
-  first.causes[0].effect = VectorXd::Zero(again.rows);
-  again.causes.insert(again.causes.begin(), first.causes[0]);
+  add_blockage(first.causes[0], again);
   return again;
 }
 

@@ -199,6 +199,8 @@ inline constexpr double law_alpha = 0.0005;
 inline constexpr double field_alpha = 0.002;
 // nats; log p required of blockage beside other misfits; chosen; none
 inline constexpr double blockage_in_company = -9;
+// lambda; of blockage that keeps its name beside a cause of more evidence; chosen; RealData.EachSetIsToldAsItWas
+inline constexpr double sure_blockage = 30;
 // dB; within which a stage of the world already clips there; chosen; none
 inline constexpr double same_clip = 0.5;
 // share; of the evidence of losses that counts unless they are censored; chosen; none

@@ -14,8 +14,9 @@ struct LabelsShifted {
   static constexpr auto summary = "all radios that stand bear the name of another, some lines further on";
   static constexpr auto manual =
       "Of all radios that stand, in the world's order, puts the first where `first` is, heading included, the second\n"
-      "where the one after `first` is, and so on; after the last comes the first again. Nothing changes while `first`\n"
-      "has no place among the ends of links, or moves.";
+      "where the one after `first` is, and so on; after the last comes the first again. A radio that is in the list "
+      "and\n"
+      "never heard has its line, too. Nothing changes where `first` moves.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("first", "radio", "which radio's place the first one has").required(),
@@ -52,7 +53,7 @@ struct LabelsShifted {
     const std::size_t by = place_of(k[first]);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const bool shifts = by < radios.size() && standing(ends[i].radio);
-      out[i] = shifts ? before[standing.end_of(radios[(place_of(ends[i].radio) + by) % radios.size()])] : before[i];
+      out[i] = shifts ? standing.place_of(radios[(place_of(ends[i].radio) + by) % radios.size()]) : before[i];
     }
   }
 

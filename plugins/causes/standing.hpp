@@ -1,4 +1,5 @@
-// Radios that stand, and where: of all ends of links, those whose radio no robot carries and that never move.
+// Radios that stand, and where: no robot carries them, and no end of a link shows them elsewhere. One that is never
+// heard stands where it is mounted.
 #pragma once
 
 #include <algorithm>
@@ -12,30 +13,33 @@ namespace muster {
 class Standing {
  public:
   Standing(Rows<const Endpoint> ends, Rows<const Pose> poses, Rows<const Mount> mounts)
-      : first_(mounts.size(), nowhere) {
-    std::vector<bool> moves(mounts.size());
+      : stands_(mounts.size()), places_(mounts.size()) {
+    for (std::size_t radio = 0; radio < mounts.size(); ++radio) {
+      const Mount& mount = mounts[radio];
+      stands_[radio] = is_null(mount.robot);
+      places_[radio] = Pose{mount.x, mount.y, mount.z, std::cos(mount.yaw / 2), 0, 0, std::sin(mount.yaw / 2)};
+    }
+    std::vector<bool> is_heard(mounts.size());
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const auto radio = static_cast<std::size_t>(ends[i].radio);
-      if (first_[radio] == nowhere) first_[radio] = i;
-      const Pose &here = poses[i], &there = poses[first_[radio]];
-      if (!is_null(mounts[radio].robot) || std::hypot(here.x - there.x, here.y - there.y) > still) moves[radio] = true;
+      if (!is_heard[radio]) places_[radio] = poses[i];
+      is_heard[radio] = true;
+      if (std::hypot(poses[i].x - places_[radio].x, poses[i].y - places_[radio].y) > still) stands_[radio] = false;
     }
-    for (std::size_t radio = 0; radio < moves.size(); ++radio) {
-      if (moves[radio]) first_[radio] = nowhere;
-      if (first_[radio] != nowhere) radios_.push_back(radio);
-    }
+    for (std::size_t radio = 0; radio < stands_.size(); ++radio)
+      if (stands_[radio]) radios_.push_back(radio);
   }
 
   const std::vector<std::size_t>& radios() const { return radios_; }  // in the world's order
-  bool operator()(double radio) const { return first_[static_cast<std::size_t>(radio)] != nowhere; }
-  // Row of the first end of a radio that stands.
-  std::size_t end_of(std::size_t radio) const { return first_[radio]; }
+  bool operator()(double radio) const { return stands_[static_cast<std::size_t>(radio)]; }
+  const Pose& place_of(std::size_t radio) const { return places_[radio]; }
 
  private:
-  static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
   static constexpr double still = 0.05;  // m: between two readings of one place
 
-  std::vector<std::size_t> first_, radios_;
+  std::vector<bool> stands_;
+  std::vector<Pose> places_;
+  std::vector<std::size_t> radios_;
 };
 
 }  // namespace muster

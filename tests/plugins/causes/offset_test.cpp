@@ -106,6 +106,14 @@ TEST(LabelsShifted, TheListOfStandingRadiosSlips) {
   EXPECT_TRUE(same_bits(shifted, swapped));
 }
 
+// A station that nobody hears has its line in the list: the second is where that one is listed.
+TEST(LabelsShifted, ASilentRadioHasItsLine) {
+  const std::string silent = "<station name=\"c\" at=\"5 3 1.5\" yaw=\"1\"/>";
+  const auto shifted = column(Site().world(effect("labels_shifted", "first=\"b\"") + silent), "link/*/rssi");
+  const Site truth(moved(moved(survey(), "a", {14, 9, 4, -2}), "b", {5, 3, 1.5, 1}));
+  EXPECT_TRUE(same_bits(shifted, column(truth.world(silent), "link/*/rssi")));
+}
+
 std::vector<double> turned(const std::string& of, const std::string& how) {
   const std::string attributes = "of=\"" + of + "\" how=\"" + how + "\" x=\"6\" y=\"2\"";
   return column(Site().world(effect("plan_turned", attributes), true), "link/*/level");

@@ -1,0 +1,75 @@
+// Readings at several powers of one radio: as received, or referred to a nominal power.
+#include "diagnosis/data/sent_power.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <sstream>
+
+#include "tests/diagnosis/scratch.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+struct Readings {
+  std::vector<double> powers;                       // dBm, set in turn
+  std::function<double(std::size_t power)> beside;  // dB, of each beside path loss and scatter
+  bool is_set_once = false;                         // each radio to a power of its own
+};
+
+// Two radios that drive away from a third; a path loss of 2.5, and a scatter of 3 dB.
+Dataset read(const Readings& readings) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> scatter(0, 3);
+  std::ostringstream text;
+  text << "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm],power[dBm]\n";
+  for (std::size_t i = 0; i < 400; ++i) {
+    const std::size_t radio = i % 2, power = readings.is_set_once ? radio : i / 2 % readings.powers.size();
+    const double x = 1 + 0.1 * static_cast<double>(i);
+    text << i << ',' << (radio ? "b" : "a") << ",base," << x << ",0,0,0,"
+         << -40 - 25 * std::log10(x) + readings.beside(power) + scatter(random) << ',' << readings.powers[power]
+         << '\n';
+  }
+  const Scratch scratch;
+  return read_dataset(scratch.write("d.csv", text.str()));
+}
+
+bool is_referred(const Dataset& data) {
+  return std::any_of(data.notes.begin(), data.notes.end(),
+                     [](const std::string& note) { return note.find("referred to a power of") != std::string::npos; });
+}
+
+TEST(SentPower, LevelsThatFollowItAreReferredToTheMiddle) {
+  const std::vector<double> powers{-4, 2, 8, 14};
+  const Dataset raw = read({powers, [&](std::size_t k) { return powers[k]; }});
+  const Dataset same = read({powers, [&](std::size_t) { return 5.0; }});
+  ASSERT_TRUE(is_referred(raw));
+  EXPECT_FALSE(is_referred(same));
+  for (std::size_t i = 0; i < raw.rows(); ++i) EXPECT_NEAR(raw.rssi[i], same.rssi[i], 1e-3);
+}
+
+TEST(SentPower, OfAnAmplifierThatIsNearlyRight) {
+  const std::vector<double> powers{-4, 2, 8, 14};
+  EXPECT_TRUE(is_referred(read({powers, [&](std::size_t k) { return 0.85 * powers[k]; }})));
+}
+
+TEST(SentPower, ErrorsOfPowersAreNoPowers) {
+  const std::vector<double> powers{-4, 2, 8, 14}, errors{0, 4, -3, 5};
+  EXPECT_FALSE(is_referred(read({powers, [&](std::size_t k) { return errors[k]; }})));
+  EXPECT_FALSE(is_referred(read({powers, [&](std::size_t k) { return -powers[k]; }})));
+}
+
+TEST(SentPower, SmallStepsMayBeErrors) {
+  const std::vector<double> powers{0, 2, 4};
+  EXPECT_FALSE(is_referred(read({powers, [&](std::size_t k) { return powers[k]; }})));
+}
+
+TEST(SentPower, APowerForEachRadioTellsNothing) {
+  const std::vector<double> powers{0, 10};
+  EXPECT_FALSE(is_referred(read({powers, [&](std::size_t k) { return powers[k]; }, true})));
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
