@@ -138,6 +138,7 @@ struct Loop {
 struct AddedRadio {
   std::string name;
   double x, y, z;  // m
+  bool stands = false;
 };
 
 // A field that neighbouring readings share and the world does not state.

@@ -22,6 +22,7 @@
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
+#include "diagnosis/radio/links/measurement_geometry.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/temporary_folder.hpp"
 
@@ -93,9 +94,7 @@ class Diagnoser {
   Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state) {
     Diagnosis out;
     out.notes = setup_.notes;
-    for (const std::string& radio : setup_.model.added_radios()) {
-      if (const auto at = setup_.model.first_end(radio)) out.added_radios.push_back({radio, at->x, at->y, at->z});
-    }
+    out.added_radios = added_radios();
     if (const MissingData& m = setup_.fitted.missing; !m.censored && m.rises())
       out.notes.push_back(fmt::format(
           "more readings are missing where less is expected ({:.0f} % at {:.0f} dBm, {:.0f} % at {:.0f} dBm): what was "
@@ -154,6 +153,16 @@ class Diagnoser {
     }
     doubt_at_bounds(out);
     return out;
+  }
+
+  std::vector<AddedRadio> added_radios() const {
+    const MeasurementGeometry geometry = measurement_geometry(setup_.model, setup_.data);
+    std::vector<AddedRadio> result;
+    for (const std::string& radio : setup_.model.added_radios()) {
+      const auto at = setup_.model.first_end(radio);
+      if (at) result.push_back({radio, at->x, at->y, at->z, !geometry.moves[static_cast<std::size_t>(at->radio)]});
+    }
+    return result;
   }
 
   // Doubts all causes if a parameter of the channel's own law is at its physical bound. The law then does not fit, and
@@ -372,6 +381,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     result.searched = found.searched;
     return result;
   }
+  again.added_radios = found.added_radios;
   add_blockage(first.causes[0], again);
   return again;
 }

@@ -64,17 +64,28 @@ bool concerns(const CauseEstimate& cause, const std::string& name) {
          std::any_of(cause.words.begin(), cause.words.end(), [&](const auto& word) { return word.second == name; });
 }
 
-// Stations for radios of the data that a written cause refers to. They stand before all else that may refer to them.
+// A mistake of the list of places is one in the order of all radios that stand.
+bool is_about_the_list(const CauseEstimate& cause) {
+  return std::count(cause.covariates.begin(), cause.covariates.end(), "map") > 0;
+}
+
+// Stations for radios of the data that a written cause refers to, in the order of the data and behind the world's own:
+// the order in which they were numbered when the cause was found. Causes that refer to them follow.
 void add_radios(XMLElement& root, const Diagnosis& found) {
+  XMLElement* last = nullptr;
+  for (XMLElement* e = root.FirstChildElement(); e; e = e->NextSiblingElement())
+    if (const std::string kind = e->Name(); kind == "station" || kind == "robot" || kind == "radio") last = e;
   for (const AddedRadio& radio : found.added_radios) {
     if (std::none_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& cause) {
-          return cause.status == inference::Status::named && concerns(cause, radio.name);
+          return cause.status == inference::Status::named &&
+                 (concerns(cause, radio.name) || (radio.stands && is_about_the_list(cause)));
         }))
       continue;
     XMLElement* e = root.GetDocument()->NewElement("station");
     e->SetAttribute("name", radio.name.c_str());
     e->SetAttribute("at", (print_real(radio.x) + ' ' + print_real(radio.y) + ' ' + print_real(radio.z)).c_str());
-    root.InsertFirstChild(e);
+    last ? root.InsertAfterChild(last, e) : root.InsertFirstChild(e);
+    last = e;
   }
 }
 

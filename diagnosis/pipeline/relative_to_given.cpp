@@ -42,6 +42,7 @@ void begin_as_given(const Diagnosis& given, bool by_itself, const CorrectedSearc
   out.seen.before = left_by_stream;
   out.seen.white_before = white_by_stream(state.rows(), alone.at.basis.rest(alone.whitener(left)));
   out.residual_sd = given.residual_sd;
+  out.added_radios = given.added_radios;  // the corrected world lists those of its cause
   first.held_out.reset();
   out.held_out.reset();
   first.elsewhere.clear();

@@ -4,6 +4,7 @@
 
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/checked.hpp"
+#include "diagnosis/report/words.hpp"
 
 namespace muster::report {
 namespace {
@@ -37,7 +38,8 @@ Json rivals_json(const std::vector<inference::Alternative>& alternatives) {
     out.push_back({{"id", r.id},
                    {"label", r.label},
                    {"evidence_gap", known(r.evidence_gap)},
-                   {"separability", known(r.separability)}});
+                   {"separability", known(r.separability)},
+                   {"in_headline", is_in_headline(r)}});
   return out;
 }
 

@@ -196,13 +196,16 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
   return out;
 }
 
+bool is_in_headline(const inference::Alternative& r) {
+  return r.separability < inference::thresholds::inseparable && r.evidence_gap < inference::thresholds::open_nats &&
+         r.id[0] != '~';
+}
+
 std::string names_of(const CauseEstimate& cause) {
   std::string names = cause.id;
   std::set<std::string> said{cause.id};
   for (const inference::Alternative& r : cause.alternatives) {
-    const bool open = r.separability < inference::thresholds::inseparable &&
-                      r.evidence_gap < inference::thresholds::open_nats && r.id[0] != '~';
-    if (open && said.insert(r.id).second) names += " or " + r.id;
+    if (is_in_headline(r) && said.insert(r.id).second) names += " or " + r.id;
   }
   return said.size() == 1 ? names : names + " (the readings do not tell which)";
 }

@@ -49,6 +49,8 @@ std::string covariate_in_words(const std::string& name);
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
 // "effect.dual_slope", or with the causes that these readings cannot tell from it:
 // "effect.dual_slope or effect.rssi_compression (the readings do not tell which)".
+// True for an alternative that is named beside the cause: the readings tell neither from the other.
+bool is_in_headline(const inference::Alternative& alternative);
 std::string names_of(const CauseEstimate& cause);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);

@@ -132,6 +132,9 @@ void weigh(Made& made) {
   }
 }
 
+// No receiver gives more or less, whatever heavy tails draw. NaN: nothing received.
+double possible(double level) { return std::clamp(level, -150.0, 20.0); }
+
 // 0 and -128 are marks of a missing reading in many receivers, and are not used for a level.
 double code_of(double level, double step) {
   const double code = std::round(level / step) * step;
@@ -150,7 +153,7 @@ void read_levels(Made& made, std::uint64_t seed) {
     const Row& row = made.campaign.rows[i];
     double level = mean_level(truth, row) - blocked[i] + frozen[row.cell];
     if (!made.request.noiseless) level += draw_error(truth.scatter, readings);
-    level = received(truth, level);
+    level = possible(received(truth, level));
     if (!made.request.noiseless && truth.scatter.step > 0) level = code_of(level, truth.scatter.step);
     made.rssi.push_back(level);
   }

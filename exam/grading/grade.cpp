@@ -71,7 +71,9 @@ bool at_right_row(const Truth::Effect& effect, const Verdict::Cause& cause) {
 
 // Equivalence classes of causes that readings may not separate. A wall and an obstacle both block links. A missing
 // wall has no loss, like one of another material. For a radio that sends and receives, offsets of transmitter and
-// receiver and an asymmetry differ only in the mean level of its pairs. Shadowing absorbs that.
+// receiver and an asymmetry differ only in the mean level of its pairs. Shadowing absorbs that. Of one class are also
+// the causes of a headline "it is A or B (the readings do not tell which)": with readings at two times, a drift is a
+// step.
 bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
   static const std::vector<std::set<std::string>> classes{{"unmapped_wall", "obstacle"},
                                                           {"wall_material", "wall_absent"},
@@ -81,6 +83,7 @@ bool same_class(const Truth::Effect& effect, const Verdict::Cause& cause) {
     return std::find(ids.begin(), ids.end(), cause.id) != ids.end();
   };
   if (cause.id == effect.id || (right_place && (lists(effect.also) || lists(effect.kin)))) return true;
+  if (right_place && std::count(cause.beside.begin(), cause.beside.end(), effect.id) > 0) return true;
   return std::any_of(classes.begin(), classes.end(),
                      [&](const auto& one) { return one.contains(effect.id) && one.contains(cause.id) && right_place; });
 }

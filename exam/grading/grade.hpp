@@ -52,6 +52,7 @@ struct Verdict {
     double evidence = 0;
     std::map<std::string, Estimate> parameters;  // by the last part of their names
     std::vector<std::string> rivals;             // causes indistinguishable from it
+    std::vector<std::string> beside{};           // those that its headline names beside it
   };
   std::string verdict;
   std::vector<Cause> named;  // the strongest first; suspected ones are not counted

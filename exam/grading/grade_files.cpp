@@ -46,6 +46,7 @@ Verdict::Cause cause_of(const json& from) {
   for (const json& r : from.value("rivals", json::array())) {
     const std::string id = r.at("id");
     if (id[0] != '~') cause.rivals.push_back(last_part(id));
+    if (r.value("in_headline", false)) cause.beside.push_back(last_part(id));
   }
   return cause;
 }

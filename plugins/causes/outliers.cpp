@@ -45,7 +45,7 @@ struct Outliers {
     *probability = params[1] > 0 ? 1 - params[0] : 1;
     return 1;
   }
-  static constexpr double shares[] = {0.001, 0.003, 0.006, 0.012, 0.025, 0.05, 0.1}, half_widths[] = {12, 20, 30};
+  static constexpr double shares[] = {0.001, 0.003, 0.006, 0.012, 0.025, 0.05, 0.1}, half_widths[] = {7, 12, 20, 30};
   static constexpr auto law =
       law_of_readings("share", log_density).from(shares).with_form("half_width", half_widths).with_atoms(as_they_are);
 

@@ -42,6 +42,21 @@ TEST(Grade, FewestHitsThatChanceLeaves) {
   EXPECT_EQ(least_hits(0, 0.5), 0);
 }
 
+TEST(Grade, AHeadlineOfTwoNamesIsRightByClass) {
+  const auto hits = [](const char* row, const char* in_headline) {
+    const Verdict verdict =
+        said(std::string(R"({"verdict":"extended","causes":[{"id":"effect.step","label":"radio/)") + row +
+             R"(","evidence":20,"rivals":[{"id":"effect.drift","in_headline":)" + in_headline + "}]}]}");
+    Grades g;
+    add(g, one("drift", 60), verdict);
+    EXPECT_EQ(share(g, "one / top name right / lambda >= 50").hits, 0);
+    return share(g, "one / top name right, by class / lambda >= 50").hits;
+  };
+  EXPECT_EQ(hits("beacon2", "true"), 1);
+  EXPECT_EQ(hits("beacon2", "false"), 0);
+  EXPECT_EQ(hits("beacon3", "true"), 0);
+}
+
 TEST(Grade, AnAdvisedRunSettlesANameWithoutRivals) {
   const auto with = [](double predicted) {
     return said(R"({"verdict":"extended","causes":[{"id":"effect.drift","evidence":20}],"advice":[)"

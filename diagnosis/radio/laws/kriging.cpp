@@ -170,7 +170,8 @@ CloseReadings KrigedReadings::close_readings() const {
     }
   }
   const auto pairs = static_cast<Index>(half.size());
-  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity()};
+  const VectorXd differences = (2 * Eigen::Map<const Eigen::ArrayXd>(half.data(), pairs)).sqrt();
+  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences};
   if (pairs < thresholds::fewest_pairs) return nothing;
   const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
   const Eigen::Map<const VectorXd> y(half.data(), pairs);
@@ -179,7 +180,7 @@ CloseReadings KrigedReadings::close_readings() const {
   const bool parabola =
       smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > thresholds::parabola_nats;
   const Intercept& likelier = parabola ? smooth : rough;
-  return {pairs, likelier.value, likelier.standard_error};
+  return {pairs, likelier.value, likelier.standard_error, differences};
 }
 
 }  // namespace muster::diagnosis

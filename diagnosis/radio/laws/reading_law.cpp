@@ -83,6 +83,12 @@ double ReadingLaw::computed_variance(const std::vector<double>& params, uint32_t
   return second / sum - first * first / (sum * sum);
 }
 
+double ReadingLaw::beyond(const std::vector<double>& params, double db) const {
+  double result = 0;
+  for (const Atom& atom : masses(params, 1)) result += std::abs(atom.db) > db ? atom.probability : 0;
+  return result;
+}
+
 bool ReadingLaw::is_heavy_tailed(const std::vector<double>& params) const {
   const std::vector<Atom> all = masses(params, 1);
   double sum = 0, first = 0, second = 0, fourth = 0;

@@ -44,6 +44,8 @@ class ReadingLaw {
   // Density per dB at the grid's centres, without atoms.
   std::vector<double> densities(const std::vector<double>& params, uint32_t draws, const BinGrid& grid) const;
   std::vector<Atom> atoms(const std::vector<double>& params) const;
+  // Probability that a single draw is farther off than that, in dB.
+  double beyond(const std::vector<double>& params, double db) const;
   // True if single draws have a larger kurtosis than a normal law's.
   bool is_heavy_tailed(const std::vector<double>& params) const;
   double apart(const std::vector<double>& params) const {
