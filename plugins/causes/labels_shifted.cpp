@@ -10,7 +10,7 @@ namespace {
 using namespace muster;
 
 struct LabelsShifted {
-  static constexpr auto id = "effect.labels_shifted/1";
+  static constexpr auto id = "effect.labels_shifted/2";
   static constexpr auto summary = "all radios that stand bear the name of another, some lines further on";
   static constexpr auto manual =
       "Of all radios that stand, in the world's order, puts the first where `first` is, heading included, the second\n"
