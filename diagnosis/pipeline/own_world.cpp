@@ -100,6 +100,7 @@ class Judge {
   struct Judged {
     OwnWorld world;
     double nats = 0, evidence = 0;
+    bool beside_found = false;  // with what was found in the world as it is
     InPlan place_sd{};
   };
 
@@ -289,19 +290,44 @@ class Judge {
     }
     result.nats = likelihood.nats;
     result.evidence = likelihood.nats - choice() - price(given.hypothesis.sought());
+    if (price_of_found() == 0) return result;
+    // A fault of the map leaves room for others: what was found may be true beside it, in another strength.
+    OwnWorld both = result.world;
+    both.design.conservativeResize(Eigen::NoChange, both.design.cols() + 1);
+    both.design.rightCols(1) = effect_of_found();
+    const double nats = likelihood_of(both).nats;
+    const double evidence = nats - choice() - price(given.hypothesis.sought()) - price_of_found();
+    if (evidence <= result.evidence) return result;
+    result.nats = nats;
+    result.evidence = evidence;
+    result.beside_found = true;
     return result;
   }
 
-  // What the search found in the world as it is, as one more world.
-  double evidence_of_found(const OwnWorld& as_it_is) const {
+  // nats, of the choices and numbers of all that the search named in the world as it is; 0: nothing.
+  double price_of_found() const {
     double prices = 0;
     for (const CauseEstimate& c : found_.causes) {
       if (c.status == inference::Status::named) prices += choice() + price(static_cast<double>(c.values.size()));
     }
-    if (prices == 0) return -std::numeric_limits<double>::infinity();
+    return prices;
+  }
+
+  // dB, by which all that was found moves the readings.
+  VectorXd effect_of_found() const {
+    VectorXd moved = -s_.base.values;
+    for (std::size_t j = 0; j < s_.base.paths.size(); ++j)
+      moved[static_cast<Index>(j)] += found_.parameters.at(s_.base.paths[j]);
+    const VectorXd without = s_.base.mean + s_.base.slopes * moved;
+    return (found_.mean - without)(kept_);
+  }
+
+  // What the search found in the world as it is, as one more world.
+  Likelihood likelihood_of_found(const OwnWorld& as_it_is) const {
+    if (price_of_found() == 0) return {};
     OwnWorld with_them = as_it_is;
     with_them.rest = y_ - found_.mean(kept_);
-    return likelihood_of(with_them).nats - prices;
+    return likelihood_of(with_them);
   }
 
   void name_likeliest(const OwnWorld& as_it_is, const std::vector<OwnWorld>& worlds, OwnWorldVerdict& out) {
@@ -322,14 +348,13 @@ class Judge {
       return rank(a) < rank(b);
     };
     const Judged& best = *std::min_element(all.begin(), all.end(), simpler);
-    const double lead = best.evidence - plain;
-    if (lead < thresholds::own_world_nats ||
-        best.evidence - evidence_of_found(as_it_is) < thresholds::own_world_beyond_found)
-      return;
+    const double of_found = likelihood_of_found(as_it_is).nats, worth = of_found - price_of_found();
+    const double lead = best.evidence - (best.beside_found ? std::max(plain, worth) : plain);
+    if (lead < thresholds::own_world_nats || best.evidence - worth < thresholds::own_world_beyond_found) return;
     CauseEstimate result = stated(best.world.hypothesis, best.place_sd);
     result.evidence = lead;
     result.log_p = -lead;
-    result.lambda = 2 * (best.nats - plain);
+    result.lambda = 2 * (best.nats - (best.beside_found ? std::max(plain, of_found) : plain));
     for (const Judged& other : all) {
       const double gap = best.evidence - other.evidence;
       if (&other != &best && gap < thresholds::own_world_open)
