@@ -91,6 +91,8 @@ queue_full + no_ack + gone + those still under way.)";
     settings.superframe_order = static_cast<int>(k[superframe_order]);
     if (k[coordinator] >= 0) settings.coordinator = static_cast<std::size_t>(k[coordinator]);
     const bool has_active_part = settings.superframe_order < lrwpan::no_beacons;
+    if (has_active_part && settings.beacon_order == lrwpan::no_beacons)
+      throw BadInput("attribute \"superframe_order\": is given without beacon_order; expected both, or neither");
     if (has_active_part && settings.superframe_order > settings.beacon_order)
       throw BadInput("attribute \"superframe_order\": is above beacon_order (" + std::to_string(settings.beacon_order) +
                      "); expected at most that, since the active part lies within the time between beacons");
