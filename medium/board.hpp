@@ -33,6 +33,7 @@ class Board {
         ends_(s.read<Ends>("link/*/ends")),
         level_(s.read<Level>("link/*/level")),
         fading_(s.read_if_any<Fading>("link/*/fading")),
+        rssi_(s.read<Rssi>("link/*/rssi")),
         readings_(s),
         emission_(s.read_if_any<Emission>("radio/*/emission")),
         inbox_(s.write<Incoming>("inbox/*/message")),
@@ -77,14 +78,14 @@ class Board {
       channel_.keys[i] = k.key("radio", i);
     }
     const auto gains = k[fading_];
-    const auto readings = readings_.look(k, sensitivity);
+    readings_.look(k, sensitivity);
     const auto radio = [&](double end) {
       return static_cast<std::size_t>(k[endpoint_][static_cast<std::size_t>(end)].radio);
     };
     for (std::size_t i = 0; i < k[ends_].size(); ++i) {
       const std::size_t at = radio(k[ends_][i].tx) * n + radio(k[ends_][i].rx);
       channel_.power[at] = milliwatts(k[level_][i].level) * (gains.empty() ? 1 : gains[i].gain);
-      channel_.rssi[at] = readings[i].rssi;
+      channel_.rssi[at] = readings_.of(k, k[rssi_][i].rssi);
     }
     look_for_jammers(k);
   }
@@ -176,6 +177,7 @@ class Board {
   In<Ends> ends_;
   In<Level> level_;
   In<Fading> fading_;
+  In<Rssi> rssi_;
   Readings readings_;
   In<Emission> emission_;
   Out<Incoming> inbox_;
