@@ -18,19 +18,23 @@ enum Part { beacon_is_due, cap_begins, cap_ends };  // of a superframe
 void Medium::enter_members(Time since) {
   if (!superframe_.exists() && members_.empty()) return;
   members_.resize(radios_.size());
+  std::vector<std::size_t> changed;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
     member.heard = member.lost = member.silent = member.between_devices = 0;
     const bool is_one = superframe_.exists() && channel_->alive[i] && are_in_one_pan(i, settings_.coordinator);
-    const bool changes = is_one != member.is_one;
-    if (changes) member = {};
+    if (is_one != member.is_one) {
+      member = {};
+      changed.push_back(i);
+    }
     member.is_one = is_one;
     if (is_one && i == settings_.coordinator) member.is_in_step = true;
-    const Phase phase = radios_[i].phase;
-    if (changes && (phase == Phase::backing_off || phase == Phase::first_cca || phase == Phase::second_cca))
-      begin_message(i, since);
   }
   if (!superframe_.exists()) members_.clear();
+  for (const std::size_t i : changed) {
+    const Phase phase = radios_[i].phase;
+    if (phase == Phase::backing_off || phase == Phase::first_cca || phase == Phase::second_cca) begin_message(i, since);
+  }
 }
 
 void Medium::put_superframes(Time since, Time until) {

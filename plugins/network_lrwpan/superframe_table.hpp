@@ -37,7 +37,9 @@ class SuperframeTable {
     const std::string name = "radio '" + std::string(k.name("radio", radio)) + '\'';
     const std::string beacons = " of '" + coordinator + '\'';
     const std::string most = std::to_string(most_lost_beacons);
-    if (row.in_step > last.in_step) k.event(name + " hears the beacons" + beacons + " and is in step");
+    const bool was_told_silent = last.heard > 0 || last.lost >= most_lost_beacons;
+    if (row.in_step > last.in_step && was_told_silent)
+      k.event(name + " hears the beacons" + beacons + " and is in step again");
     if (row.in_step < last.in_step)
       k.event(name + " has lost " + most + " beacons" + beacons + " in a row and is silent until it hears one");
     if (row.heard == 0 && last.lost < most_lost_beacons && row.lost >= most_lost_beacons)
