@@ -15,7 +15,8 @@ struct NetworkLrwpan {
   static constexpr auto id = "network.lrwpan/2";
   static constexpr auto summary = "IEEE 802.15.4 at 2.4 GHz: radios that share a channel by CSMA/CA";
   static constexpr auto manual =
-      R"(Messages as frames of IEEE 802.15.4-2006 (the radio of Zigbee), CSMA/CA, 250 kbit/s: back-off, clear-channel assessment, turnaround, frame spacing; frames to one receiver are acknowledged and sent again. What is larger than 116
+      R"(Messages as frames of IEEE 802.15.4-2006 (the radio of Zigbee), CSMA/CA, 250 kbit/s: back-off, clear-channel
+assessment, turnaround, frame spacing; frames to one receiver are acknowledged and sent again. What is larger than 116
 bytes (104 with extended addresses) goes in fragments cut as RFC 4944 does. radio.pan puts radios into PANs: what is
 sent to all goes to the sender's, and ends as no_link elsewhere. A receiver locks on a frame that it hears (rssi not
 null) and that stands 5 dB below noise and interference or better; each bit then comes right or wrong by the standard's
@@ -30,8 +31,8 @@ Superframes of 15.36 ms times 2 to the power of BO begin at time 0; the first 15
 coordinator and its devices exchange messages; from device to device there is no link (no_link), unless a routing
 relays. A device that has heard no beacon, or lost 4 in a row, is silent: its messages end as no_access, and
 radio/*/superframe counts them as silent. That table is there where the world file gives beacon_order.
-rssi="profile": readings are those of a CC2420's data sheet, and frames below the sensitivity that the standard demands
-(6.5.3.3) are not received. radio.rssi_steps in the world takes the place of the profile's steps.
+rssi="profile": messages come with readings as a CC2420 gives them (its data sheet), and frames below the sensitivity
+that the standard demands (6.5.3.3) are not received. radio.rssi_steps in the world takes the place of the profile's steps.
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + no_access +
 queue_full + no_ack + gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
@@ -49,12 +50,12 @@ queue_full + no_ack + gone + those still under way.)";
       medium::Board::spread_param,
       integer("beacon_order", lrwpan::no_beacons, 0, 15, "macBeaconOrder, BO: of the time between beacons; 15: none"),
       integer("superframe_order", lrwpan::no_beacons, 0, 15, "macSuperframeOrder, SO: of the active part; 15: as BO"),
+      reference("coordinator", "radio", "of the PAN with beacons, which it sends; by default the first radio"),
       medium::Readings::mode_param,
       medium::Readings::step_param(1),
       medium::Readings::least_param(-100),
       medium::Readings::most_param(0),
       medium::Readings::sensitivity_param(-85, "of the profile: weaker frames are not received"),
-      reference("coordinator", "radio", "of the PAN with beacons, which it sends; by default the first radio"),
   };
 
   explicit NetworkLrwpan(Setup& s)
