@@ -32,7 +32,8 @@ coordinator and its devices exchange messages; from device to device there is no
 relays. A device that has heard no beacon, or lost 4 in a row, is silent: its messages end as no_access, and
 radio/*/superframe counts them as silent. That table is there where the world file gives beacon_order.
 rssi="profile": messages come with readings as a CC2420 gives them (its data sheet), and frames below the sensitivity
-that the standard demands (6.5.3.3) are not received. radio.rssi_steps in the world takes the place of the profile's steps.
+that the standard demands (6.5.3.3) are not received. radio.rssi_steps in the world takes the place of the profile's
+steps.
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + no_access +
 queue_full + no_ack + gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;

@@ -19,8 +19,9 @@ receiver takes up a frame that it hears (rssi not null) and that stands 4 dB abo
 and to all other frames in the air. Power is link/*/level with link/*/fading, as it stands in the tick.
 `spread`: a request is made at some moment of its tick, since robots' clocks do not agree; else at its start, all at
 once. noise: 20 MHz at 290 K and a noise figure of 7 dB.
-rssi="profile": messages come with readings of RCPI, and frames below the sensitivity that the standard demands for the rate (-82
-dBm at 6 Mbit/s to -65 dBm at 54) are not received. radio.rssi_steps in the world takes the place of the profile's steps.
+rssi="profile": messages come with readings of RCPI, and frames below the sensitivity that the standard demands for the
+rate (-82 dBm at 6 Mbit/s to -65 dBm at 54) are not received. radio.rssi_steps in the world takes the place of the
+profile's steps.
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + queue_full + no_ack +
 gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
