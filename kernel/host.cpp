@@ -58,7 +58,8 @@ struct Host {
   }
 
   // "robot/leader/place", "self/place" and, of a given attribute, "self/place/ATTRIBUTE"; the world's "world/file",
-  // "world/dt" and "world/until" [s]. Null for other paths and for rows that joined.
+  // "world/dt" and "world/until" [s]; "world/PLUGIN/place" of the first instance of a plugin in the world file. Null
+  // for other paths and for rows that joined.
   static const char* place_text(Instance& i, const std::string& path) {
     const auto first = path.find('/'), last = path.rfind('/');
     const auto keep = [&](const std::string& text) { return i.texts_.emplace(path, text).first->second.c_str(); };
@@ -75,6 +76,8 @@ struct Host {
     if (path == "self/place") return keep(i.place().text());
     if (first == last) return nullptr;
     const std::string set = path.substr(0, first), name = path.substr(first + 1, last - first - 1);
+    for (const auto& instance : world.instances)
+      if (set == "world" && instance.plugin == name) return keep(instance.place.text());
     for (const auto& row : world.rows) {
       if (row.name == name && std::find(row.sets.begin(), row.sets.end(), set) != row.sets.end())
         return keep(row.place.text());

@@ -9,6 +9,7 @@
 #include <muster/printed.hpp>
 #include <string>
 
+#include "medium/readings.hpp"
 #include "medium/transmit_queue.hpp"
 
 namespace muster::medium {
@@ -33,16 +34,19 @@ class Board {
         level_(s.read<Level>("link/*/level")),
         fading_(s.read_if_any<Fading>("link/*/fading")),
         rssi_(s.read<Rssi>("link/*/rssi")),
+        readings_(s),
         emission_(s.read_if_any<Emission>("radio/*/emission")),
         inbox_(s.write<Incoming>("inbox/*/message")),
         traffic_(s.write<Traffic>("radio/*/traffic")),
         state_(s.write<State>(state)),
         moments_(s.stream("moments of requests")) {}
 
-  // Runs the medium through the tick. `band`: all that its radios may receive in.
+  // Runs the medium through the tick. `band`: all that its radios may receive in; `sensitivity`: of a profile whose
+  // world gives none, where it depends on the mode.
   template <class Medium, class Settings>
-  void step(const Step& k, Medium& medium, const Settings& settings, const Band& band) {
-    look(k);
+  void step(const Step& k, Medium& medium, const Settings& settings, const Band& band,
+            std::optional<double> sensitivity = {}) {
+    look(k, sensitivity);
     if (k.last_bytes(state_, 0, 0).empty()) warn_of_jammers_elsewhere(k, band);  // its first step
     if (const auto bytes = k.last_bytes(state_, 0, 0); bytes != saved_) medium.load(bytes);
     ask(k, medium);
@@ -62,7 +66,7 @@ class Board {
 
   static Time nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
 
-  void look(const Step& k) {
+  void look(const Step& k, std::optional<double> sensitivity) {
     const std::size_t n = k[traffic_].size();
     channel_.radios = n;
     channel_.power.assign(n * n, 0);
@@ -74,13 +78,14 @@ class Board {
       channel_.keys[i] = k.key("radio", i);
     }
     const auto gains = k[fading_];
+    readings_.look(k, sensitivity);
     const auto radio = [&](double end) {
       return static_cast<std::size_t>(k[endpoint_][static_cast<std::size_t>(end)].radio);
     };
     for (std::size_t i = 0; i < k[ends_].size(); ++i) {
       const std::size_t at = radio(k[ends_][i].tx) * n + radio(k[ends_][i].rx);
       channel_.power[at] = milliwatts(k[level_][i].level) * (gains.empty() ? 1 : gains[i].gain);
-      channel_.rssi[at] = k[rssi_][i].rssi;
+      channel_.rssi[at] = readings_.of(k, k[rssi_][i].rssi);
     }
     look_for_jammers(k);
   }
@@ -173,6 +178,7 @@ class Board {
   In<Level> level_;
   In<Fading> fading_;
   In<Rssi> rssi_;
+  Readings readings_;
   In<Emission> emission_;
   Out<Incoming> inbox_;
   Out<Traffic> traffic_;

@@ -54,6 +54,7 @@ class Reader {
     values.resize(get<std::size_t>());
     if (!values.empty()) std::memcpy(values.data(), next(values.size() * sizeof(T)).data(), values.size() * sizeof(T));
   }
+  bool is_at_end() const { return bytes_.empty(); }
   std::string_view text() { return next(get<std::size_t>()); }
 
  private:

@@ -120,7 +120,8 @@ typedef struct muster_host {
    * no others; " +": and a row. A nullable one may be absent; references are names of rows ("tx:radio+": or join). */
   int (*file)(const struct muster_host*, const char* param, const char* columns);
   /* [setup] A text parameter by its name, or a text attribute by its path ("robot/leader/model"); NULL if absent.
-   * [any] Where the world file has a row, or the instance: "world.xml:3:1" of "robot/leader/place", "self/place". */
+   * [any] Where the world file has a row, the instance, or one of a plugin: "world.xml:3:1" of "robot/leader/place",
+   * "self/place", "world/radio.receiver/place". */
   const char* (*text)(const struct muster_host*, const char* path);
   /* [setup] The directories in which files such as robots' models are looked for: those of the plugins, then the
    * world's own; NULL after the last. */

@@ -22,6 +22,8 @@ are sent three times. Power is link/*/level with link/*/fading, as it stands in 
 `spread`: a request is made at some moment of its tick, since robots' clocks do not agree; else at its start, all at
 once. noise: 1 MHz at 290 K and a noise figure of 7 dB; a receiver that is just as good as the specification asks for
 (0.1 % wrong bits at -70 dBm) has -82.715 dBm.
+rssi="profile": messages come with readings as an inquiry with RSSI has them, 8 bits in dBm, and packets below -70 dBm
+are not received. radio.rssi_steps in the world takes the place of the profile's steps.
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + queue_full + no_ack +
 gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
@@ -34,6 +36,11 @@ gone + those still under way.)";
       real("noise", -106.976, -250, 50, "dBm", "of a receiver"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
       medium::Board::spread_param,
+      medium::Readings::mode_param,
+      medium::Readings::step_param(1),
+      medium::Readings::least_param(-127),
+      medium::Readings::most_param(20),
+      medium::Readings::sensitivity_param(-70, "of the profile: weaker packets are not received"),
   };
 
   explicit NetworkBluetooth(Setup& s)

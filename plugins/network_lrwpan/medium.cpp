@@ -11,9 +11,6 @@ using medium::Frame;
 using medium::never;
 using medium::nothing;
 
-// Order of simultaneous events: frames end, requests come, phases end, acknowledgements are sent.
-enum Kind { frame_ends, request_comes, phase_ends, ack_is_due };
-
 // A receiver detects a preamble down to 5 dB below noise and interference (as ns-3 3.37 has it).
 const double found_above = std::pow(10, -0.5);
 
@@ -27,7 +24,7 @@ medium::Format format() {
 
 }  // namespace
 
-Medium::Medium(const Stream& random) : random_(random), air_(random.of(key_of("bits")), {format()}) {}
+Medium::Medium(const Stream& random) : random_(random), air_(random.of(key_of("bits")), {format(), format()}) {}
 
 // ---- Time ---------------------------------------------------------------------------------------------------------
 
@@ -40,6 +37,9 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
                        band_of(settings.channel)});
   post_.open(channel);
   agenda_.clear(until);
+  superframe_ = settings.beacon_order == no_beacons
+                    ? Superframe()
+                    : Superframe(settings.beacon_order, settings.superframe_order, settings.extended);
   for (std::size_t i = 0; i < radios_.size(); ++i) {
     if (channel.alive[i]) continue;
     const std::uint64_t draws = radios_[i].draws;
@@ -54,6 +54,8 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
     agenda_.put(radios_[i].due, phase_ends, i);
     agenda_.put(radios_[i].ack_due, ack_is_due, i);
   }
+  enter_members(since);
+  if (superframe_.exists()) put_superframes(since, until);
   agenda_.begin();
   while (!agenda_.empty()) handle(agenda_.take());
   return post_.close();
@@ -64,13 +66,16 @@ void Medium::handle(const medium::Event& event) {
     case frame_ends:
       return end_frame(event.number(), event.at);
     case request_comes:
-      if (post_.take(event.number(), settings_.queue)) compete(post_.requests()[event.number()].from, event.at);
+      if (post_.take(event.number(), settings_.queue)) begin_message(post_.requests()[event.number()].from, event.at);
       return;
     case phase_ends:
       if (radios_[event.number()].due == event.at) end_phase(event.number(), event.at);  // otherwise it ended early
       return;
-    default:
+    case ack_is_due:
       if (radios_[event.number()].ack_due == event.at) send_ack(event.number(), event.at);
+      return;
+    default:
+      handle_superframe(event.number(), event.at);
   }
 }
 
@@ -88,32 +93,59 @@ void Medium::wait_with_ack(std::size_t radio, Phase phase, Time until) {
 
 // ---- Access -------------------------------------------------------------------------------------------------------
 
+// Goes on to the first message that may be sent at all.
+void Medium::begin_message(std::size_t sender, Time at) {
+  radios_[sender].tries = 0;
+  radios_[sender].arrived = false;
+  for (; post_.is_waiting(sender); post_.drop_first(sender)) {
+    const DeliveryOutcome why = refusal(sender);
+    if (why == DeliveryOutcome::under_way) return compete(sender, at);
+    post_.settle(sender, why);
+  }
+  wait(sender, Phase::idle, never);
+}
+
 void Medium::compete(std::size_t radio, Time at) {
   radios_[radio].backoffs = 0;
   radios_[radio].exponent = least_exponent;
   back_off(radio, std::max(at, radios_[radio].spaced));
 }
 
-void Medium::back_off(std::size_t number, Time from) {
+Time Medium::backoff_periods(std::size_t number) {
   Radio& radio = radios_[number];
   const double drawn = random_.of(channel_->keys[number]).uniform(radio.draws++);
-  const auto periods = static_cast<Time>(drawn * (1 << radio.exponent));
-  wait(number, Phase::backing_off, from + periods * unit_backoff + cca_window);
+  return static_cast<Time>(drawn * (1 << radio.exponent));
 }
 
-// A radio that owes an acknowledgement, or has just sent one, senses a busy channel.
+void Medium::back_off(std::size_t number, Time from) {
+  if (is_member(number)) return back_off_in_slots(number, from);
+  wait(number, Phase::backing_off, from + backoff_periods(number) * unit_backoff + cca_window);
+}
+
 void Medium::assess(std::size_t number, Time at) {
+  if (is_free(number, at))
+    turn_round(number, at);
+  else
+    back_off_again(number, at);
+}
+
+void Medium::turn_round(std::size_t number, Time at) {
+  air_.deafen(number, never);
+  wait(number, Phase::turning, at + turnaround);
+}
+
+void Medium::back_off_again(std::size_t number, Time at) {
   Radio& radio = radios_[number];
-  if (radio.ack_phase == Phase::idle && !air_.is_deaf(number, at) && !is_busy(number, at)) {
-    air_.deafen(number, never);
-    wait(number, Phase::turning, at + turnaround);
-    return;
-  }
   radio.exponent = std::min(radio.exponent + 1, most_exponent);
   if (++radio.backoffs > most_backoffs)
     give_up(number, DeliveryOutcome::no_access, at);
   else
     back_off(number, at);
+}
+
+// A radio that owes an acknowledgement, or has just sent one, senses a busy channel.
+bool Medium::is_free(std::size_t radio, Time at) const {
+  return radios_[radio].ack_phase == Phase::idle && !air_.is_deaf(radio, at) && !is_busy(radio, at);
 }
 
 bool Medium::is_busy(std::size_t radio, Time at) const {
@@ -138,7 +170,9 @@ void Medium::end_phase(std::size_t number, Time at) {
   Radio& radio = radios_[number];
   switch (radio.phase) {
     case Phase::backing_off:
-      return assess(number, at);
+    case Phase::first_cca:
+    case Phase::second_cca:
+      return is_member(number) ? assess_in_slots(number, at) : assess(number, at);
     case Phase::turning:
       return send(number, at);
     case Phase::awaiting_ack:
@@ -156,23 +190,27 @@ std::size_t Medium::head(std::size_t sender) const {
   return (settings_.extended ? extended_header : header) + more;
 }
 
+std::size_t Medium::size_of_frame(std::size_t sender) const {
+  const medium::Message& message = post_.first(sender);
+  return frame_size(message.size, message.frame, head(sender));
+}
+
 bool Medium::is_last_frame(std::size_t sender) const {
   const medium::Message& message = post_.first(sender);
   return message.frame + 1 >= frames_of(message.size, head(sender));
 }
 
 void Medium::send(std::size_t number, Time at) {
-  const medium::Message& message = post_.first(number);
-  const Time length = air_time(frame_size(message.size, message.frame, head(number)));
+  const Time length = air_time(size_of_frame(number));
   wait(number, Phase::sending, never);
-  const Frame& frame = air_.begin(number, at, length, 0, nothing, message.to, cca_window);
+  const Frame& frame = air_.begin(number, at, length, data_frame, nothing, post_.first(number).to, cca_window);
   agenda_.put(frame.end, frame_ends, frame.id);
 }
 
 void Medium::send_ack(std::size_t number, Time at) {
   const Radio& radio = radios_[number];
   wait_with_ack(number, Phase::sending, never);
-  const Frame& frame = air_.begin(number, at, air_time(ack_frame), 0, radio.ack_of, radio.ack_to, cca_window);
+  const Frame& frame = air_.begin(number, at, air_time(ack_frame), data_frame, radio.ack_of, radio.ack_to, cca_window);
   agenda_.put(frame.end, frame_ends, frame.id);
 }
 
@@ -181,6 +219,7 @@ void Medium::send_ack(std::size_t number, Time at) {
 void Medium::end_frame(std::uint64_t id, Time at) {
   const Frame frame = air_.frame(id);
   const std::vector<Heard>& heard = air_.end(frame);
+  if (frame.format == beacon) return end_beacon(frame, heard, at);
   if (frame.ack_of != nothing) return end_ack(frame, heard, at);
   Radio& sender = radios_[frame.sender];
   if (sender.phase != Phase::sending) return;  // it has left since
@@ -200,15 +239,18 @@ void Medium::end_ack(const Frame& frame, const std::vector<Heard>& heard, Time a
   }
   const Radio& waits = radios_[frame.to];
   const bool is_its_own = waits.phase == Phase::awaiting_ack && waits.sent == frame.ack_of;
-  if (is_its_own && heard[frame.to] == Heard::whole) go_on_with_message(frame.to, at);
+  if (!is_its_own || heard[frame.to] != Heard::whole) return;
+  if (is_member(frame.to)) radios_[frame.to].spaced = at + spacing_after(size_of_frame(frame.to));
+  go_on_with_message(frame.to, at);
 }
 
-// Receivers in another PAN receive the frame and discard it (7.5.6.2, third level).
+// Receivers in another PAN receive the frame and discard it (7.5.6.2, third level); so do devices from another device.
 const std::vector<Heard>& Medium::filtered(std::size_t sender, const std::vector<Heard>& heard) {
-  if (settings_.pans.empty()) return heard;
+  if (settings_.pans.empty() && members_.empty()) return heard;
   filtered_ = heard;
   for (std::size_t i = 0; i < heard.size(); ++i)
-    if (heard[i] != Heard::gone && !are_in_one_pan(sender, i)) filtered_[i] = Heard::no_link;
+    if (heard[i] != Heard::gone && (!are_in_one_pan(sender, i) || (is_device(sender) && is_device(i))))
+      filtered_[i] = Heard::no_link;
   return filtered_;
 }
 
@@ -231,12 +273,16 @@ void Medium::end_unicast(const Frame& frame, Heard heard, Time at) {
   }
   if (!settings_.acknowledged) return go_on_with_message(frame.sender, at);
   wait(frame.sender, Phase::awaiting_ack, at + ack_wait);
-  Radio& receiver = radios_[frame.to];
-  if (heard != Heard::whole || receiver.ack_phase != Phase::idle) return;
-  receiver.ack_of = frame.id;
-  receiver.ack_to = frame.sender;
+  if (heard == Heard::whole && radios_[frame.to].ack_phase == Phase::idle) owe_ack(frame, at);
+}
+
+void Medium::owe_ack(const Frame& frame, Time at) {
+  const Time begin = is_member(frame.to) ? ack_time(frame.to, at) : at + turnaround;
+  if (begin == never) return;
+  radios_[frame.to].ack_of = frame.id;
+  radios_[frame.to].ack_to = frame.sender;
   air_.deafen(frame.to, never);
-  wait_with_ack(frame.to, Phase::turning, at + turnaround);
+  wait_with_ack(frame.to, Phase::turning, begin);
 }
 
 // ---- Messages -----------------------------------------------------------------------------------------------------
@@ -259,10 +305,7 @@ void Medium::give_up(std::size_t sender, DeliveryOutcome why, Time at) {
 
 void Medium::end_message(std::size_t sender, Time at) {
   post_.drop_first(sender);
-  radios_[sender].tries = 0;
-  radios_[sender].arrived = false;
-  wait(sender, Phase::idle, never);
-  if (post_.is_waiting(sender)) compete(sender, at);
+  begin_message(sender, at);
 }
 
 // ---- State --------------------------------------------------------------------------------------------------------
@@ -281,6 +324,7 @@ constexpr auto fields = [](auto&& field, auto& r) {
 std::string Medium::save() const {
   medium::Writer out;
   medium::save(out, air_, post_, radios_, fields);
+  for (const Member& m : members_) out.put(m.is_one), out.put(m.is_in_step), out.put(m.beacons_lost);
   return out.take();
 }
 
@@ -289,6 +333,9 @@ void Medium::load(std::string_view bytes) {
   if (bytes.empty()) return;
   medium::Reader in(bytes);
   medium::load(in, air_, post_, radios_, fields);
+  if (in.is_at_end()) return;  // without beacons
+  members_.resize(radios_.size());
+  for (Member& m : members_) in.get(m.is_one), in.get(m.is_in_step), in.get(m.beacons_lost);
 }
 
 }  // namespace muster::lrwpan

@@ -1,5 +1,6 @@
-// Radios that share one channel by unslotted CSMA/CA (IEEE 802.15.4-2006, 7.5.1.4), with collisions and
-// acknowledgements. A discrete-event simulation with events per transmission, not per receiver.
+// Radios that share one channel by CSMA/CA (IEEE 802.15.4-2006, 7.5.1.4), with collisions and acknowledgements:
+// unslotted, or in the superframes of one PAN's coordinator. A discrete-event simulation with events per transmission,
+// not per receiver.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 #include "medium/air.hpp"
 #include "medium/event_queue.hpp"
 #include "medium/transmit_queue.hpp"
-#include "standard.hpp"
+#include "superframe.hpp"
 
 namespace muster::lrwpan {
 
@@ -35,6 +36,20 @@ struct Settings {
   double capture = 0;        // ratio above which a later frame captures a receiver; 0: never
 
   std::vector<std::uint16_t> pans;  // of each radio; empty: all are in one
+
+  int beacon_order = no_beacons, superframe_order = no_beacons;  // of the coordinator's PAN
+  std::size_t coordinator = 0;
+};
+
+// A radio of the PAN that has beacons.
+struct Member {
+  bool is_one = false;
+  bool is_in_step = false;        // it knows when superframes begin; else it is silent
+  std::uint8_t beacons_lost = 0;  // in a row, up to most_lost_beacons
+  // In this run.
+  std::uint64_t heard = 0, lost = 0;  // beacons
+  std::uint64_t silent = 0;           // copies not sent for want of beacons
+  std::uint64_t between_devices = 0;  // copies from a device to another, for which a star has no link
 };
 
 class Medium {
@@ -54,8 +69,11 @@ class Medium {
   // Runs from `since` to `until`. The report is valid until the next run.
   const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
 
+  const std::vector<Member>& members() const { return members_; }             // of each radio; empty without beacons
+  const std::vector<medium::Frame>& frames() const { return air_.frames(); }  // in the air, or ended lately
+
  private:
-  enum class Phase : std::uint8_t { idle, backing_off, turning, sending, awaiting_ack };
+  enum class Phase : std::uint8_t { idle, backing_off, turning, sending, awaiting_ack, first_cca, second_cca };
 
   // State of a radio's first message, and of an acknowledgement that it owes.
   struct Radio {
@@ -75,22 +93,49 @@ class Medium {
     std::uint64_t draws = 0;  // number of random numbers drawn
   };
 
+  // Order of simultaneous events: frames end, requests come, phases end, acknowledgements are sent; then superframes.
+  enum Kind { frame_ends, request_comes, phase_ends, ack_is_due, superframe_goes_on };
+  enum Format : std::size_t { data_frame, beacon };  // of frames: their bits are alike
+
   bool are_in_one_pan(std::size_t a, std::size_t b) const {
     return settings_.pans.empty() || settings_.pans[a] == settings_.pans[b];
   }
   std::size_t head(std::size_t sender) const;
+  std::size_t size_of_frame(std::size_t sender) const;
   bool is_last_frame(std::size_t sender) const;
   void wait(std::size_t radio, Phase phase, Time until);
   void wait_with_ack(std::size_t radio, Phase phase, Time until);
   void handle(const medium::Event& event);
 
+  void begin_message(std::size_t sender, Time at);
   void compete(std::size_t radio, Time at);
+  Time backoff_periods(std::size_t radio);
   void back_off(std::size_t radio, Time from);
   void assess(std::size_t radio, Time at);
+  void turn_round(std::size_t radio, Time at);
+  void back_off_again(std::size_t radio, Time at);
+  bool is_free(std::size_t radio, Time at) const;
   bool is_busy(std::size_t radio, Time at) const;
   void end_phase(std::size_t radio, Time at);
   void send(std::size_t radio, Time at);
+  void owe_ack(const medium::Frame& frame, Time at);
   void send_ack(std::size_t radio, Time at);
+
+  // Superframes, in slots.cpp.
+  bool is_member(std::size_t radio) const { return !members_.empty() && members_[radio].is_one; }
+  bool is_device(std::size_t radio) const { return is_member(radio) && radio != settings_.coordinator; }
+  void enter_members(Time since);
+  void put_superframes(Time since, Time until);
+  void handle_superframe(std::uint64_t part, Time at);
+  void send_beacon(Time at);
+  void end_beacon(const medium::Frame& frame, const std::vector<Heard>& heard, Time at);
+  void begin_cap(Time at);
+  void end_cap(Time at);
+  DeliveryOutcome refusal(std::size_t sender);
+  void back_off_in_slots(std::size_t radio, Time from);
+  void assess_in_slots(std::size_t radio, Time at);
+  bool fits_in_cap(std::size_t sender, Time at) const;
+  Time ack_time(std::size_t receiver, Time at) const;
 
   void end_frame(std::uint64_t id, Time at);
   void end_ack(const medium::Frame& frame, const std::vector<Heard>& heard, Time at);
@@ -108,6 +153,8 @@ class Medium {
   medium::TransmitQueue post_;
   medium::EventQueue agenda_;
   std::vector<Radio> radios_;
+  std::vector<Member> members_;
+  Superframe superframe_;
   const Channel* channel_ = nullptr;  // of the run
   std::vector<Heard> filtered_;       // buffer, kept from frame to frame
 };

@@ -22,6 +22,11 @@ constexpr Time short_spacing = 12 * symbol, long_spacing = 40 * symbol;  // of f
 constexpr int least_exponent = 3, most_exponent = 5, most_backoffs = 4;  // macMinBE, macMaxBE, macMaxCSMABackoffs
 constexpr Time bit = symbol / 4;
 
+constexpr Time base_superframe = 16 * 60 * symbol;  // aBaseSuperframeDuration
+constexpr int no_beacons = 15;                      // macBeaconOrder of a PAN without beacons
+constexpr int most_lost_beacons = 4;                // aMaxLostBeacons
+constexpr int contention_window = 2;                // CW: assessments of slotted CSMA/CA
+
 // Band of channels 11 to 26. A receiver's filter passes all between its neighbours, consistent with its noise.
 constexpr medium::Band band_of(int channel) {
   const double middle = 2405e6 + 5e6 * (channel - 11);
@@ -34,6 +39,9 @@ constexpr std::size_t header = 11;  // control, sequence, PAN, two short address
 constexpr std::size_t extended_header = header + 2 * (8 - 2);  // the same with two extended addresses
 constexpr std::size_t sender_pan = 2;  // more, to a receiver in another PAN: the header then has the sender's PAN too
 constexpr std::size_t ack_frame = 5;
+
+// Control, sequence, PAN, sender's address; superframe, reserved slots and pending addresses; check sequence.
+constexpr std::size_t beacon_frame(bool extended) { return 2 + 1 + 2 + (extended ? 8 : 2) + 2 + 1 + 1 + 2; }
 
 // Fragments of RFC 4944: all but the last carry a multiple of 8 octets after a header of 4, then of 5.
 constexpr std::size_t in_one_frame(std::size_t head) { return largest_frame - head; }
@@ -51,6 +59,7 @@ constexpr std::size_t frame_size(std::size_t payload, std::size_t n, std::size_t
 }
 
 constexpr Time air_time(std::size_t size) { return static_cast<Time>(preamble + size) * octet; }
+constexpr Time spacing_after(std::size_t size) { return size > 18 ? long_spacing : short_spacing; }
 
 // Bit error rate at a ratio of signal to noise and interference (IEEE 802.15.4-2006, annex E.4.1.8).
 inline double bit_error_rate(double ratio) {

@@ -19,6 +19,9 @@ receiver takes up a frame that it hears (rssi not null) and that stands 4 dB abo
 and to all other frames in the air. Power is link/*/level with link/*/fading, as it stands in the tick.
 `spread`: a request is made at some moment of its tick, since robots' clocks do not agree; else at its start, all at
 once. noise: 20 MHz at 290 K and a noise figure of 7 dB.
+rssi="profile": messages come with readings of RCPI, and frames below the sensitivity that the standard demands for the
+rate (-82 dBm at 6 Mbit/s to -65 dBm at 54) are not received. radio.rssi_steps in the world takes the place of the
+profile's steps.
 Each copy has one outcome in radio/*/traffic: asked = delivered + too_weak + no_link + collided + queue_full + no_ack +
 gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
@@ -33,6 +36,11 @@ gone + those still under way.)";
       integer("retries", 6, 0, 255, "of a frame that was not acknowledged"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a station beside the one that it sends"),
       medium::Board::spread_param,
+      medium::Readings::mode_param,
+      medium::Readings::step_param(0.5),
+      medium::Readings::least_param(-110),
+      medium::Readings::most_param(0),
+      medium::Readings::sensitivity_param(-82, "of the profile: weaker frames are not received; by default the rate's"),
   };
 
   explicit NetworkWifi(Setup& s)
@@ -57,7 +65,7 @@ gone + those still under way.)";
     settings.acknowledged = k[acknowledge] != 0;
     settings.retries = static_cast<int>(k[retries]);
     settings.queue = static_cast<std::size_t>(k[queue]);
-    board.step(k, medium, settings, wifi::band_of(settings.channel));
+    board.step(k, medium, settings, wifi::band_of(settings.channel), wifi::sensitivities[settings.rate]);
   }
 
   Value channel, rate, slot, busy_threshold, noise, acknowledge, retries, queue;

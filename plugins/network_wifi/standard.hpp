@@ -58,6 +58,9 @@ constexpr std::array<Rate, 8> rates{{{6, 1, 1, 6},
                                      {48, 6, 2, 24},
                                      {54, 6, 3, 24}}};
 
+// Sensitivity at each rate that the standard demands, in dBm (17.3.10.2, which 18.4.8.2 adopts).
+constexpr std::array<double, 8> sensitivities{-82, -81, -79, -77, -74, -70, -66, -65};
+
 constexpr std::size_t rate_of(int mbit) {
   std::size_t i = 0;
   while (rates[i].mbit != mbit) ++i;
