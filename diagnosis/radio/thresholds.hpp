@@ -195,6 +195,9 @@ inline constexpr double disk_worth = 0.5;
 
 // probability; of a false fading law or blockage in a clean world; chosen; CleanCase.IsSilent
 inline constexpr double law_alpha = 0.0005;
+// probability; of a dependence of scatter on level where there is none; chosen;
+// ScatterByLevel.IsToldWhereAReceiverCompresses
+inline constexpr double scatter_alpha = 1e-4;
 // probability; of a false field in a clean world; chosen; SealedField.OfASmoothFamilyIsNotTakenForTheStatedOne
 inline constexpr double field_alpha = 0.002;
 // nats; log p required of blockage beside other misfits; chosen; none

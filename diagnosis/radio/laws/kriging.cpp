@@ -157,6 +157,7 @@ CloseReadings KrigedReadings::close_readings() const {
   const noise::Sites& sites = field_.sites();
   std::vector<bool> paired(static_cast<std::size_t>(size()), false);
   std::vector<double> apart, half;
+  std::vector<Index> first;
   for (Index i = 0; i < size(); ++i) {
     for (int a = 0; a < field_.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
       const Index j = field_.neighbour(i, a);
@@ -165,13 +166,14 @@ CloseReadings KrigedReadings::close_readings() const {
                                          (sites.anchor.col(i) - sites.anchor.col(j)).norm());
       if (distance > thresholds::side_by_side) break;  // neighbours are sorted by distance
       apart.push_back(distance);
+      first.push_back(i);
       half.push_back(std::pow(residual_[i] - residual_[j], 2) / 2);
       paired[static_cast<std::size_t>(i)] = paired[static_cast<std::size_t>(j)] = true;
     }
   }
   const auto pairs = static_cast<Index>(half.size());
   const VectorXd differences = (2 * Eigen::Map<const Eigen::ArrayXd>(half.data(), pairs)).sqrt();
-  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences};
+  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences, first};
   if (pairs < thresholds::fewest_pairs) return nothing;
   const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
   const Eigen::Map<const VectorXd> y(half.data(), pairs);
@@ -180,7 +182,7 @@ CloseReadings KrigedReadings::close_readings() const {
   const bool parabola =
       smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > thresholds::parabola_nats;
   const Intercept& likelier = parabola ? smooth : rough;
-  return {pairs, likelier.value, likelier.standard_error, differences};
+  return {pairs, likelier.value, likelier.standard_error, differences, first};
 }
 
 }  // namespace muster::diagnosis

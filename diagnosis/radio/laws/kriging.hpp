@@ -33,6 +33,7 @@ struct CloseReadings {
   Eigen::Index pairs = 0;
   double variance = 0, standard_error = 0;  // dB^2; 0 and infinite without enough distances or pairs
   Eigen::VectorXd apart{};                  // dB, by which readings of a pair differ
+  std::vector<Eigen::Index> first{};        // of each pair
 };
 
 // Where readings of a site share a part that is fixed there, laws are judged by the readings that repeat another one:

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
+#include "diagnosis/radio/laws/scatter_by_level.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -126,6 +127,22 @@ std::vector<bool> unsure(const LawSources& s, const VectorXd& residual) {
   return result;
 }
 
+// What is to be said where readings scatter otherwise at other levels: a receiver does that, and no law of fading; else
+// empty.
+std::string of_receiver(const LawSources& s, const VectorXd& residual, const KrigedReadings& field,
+                        const Diagnosis& found) {
+  VectorXd level(field.size());
+  for (Index i = 0, kriged = 0; i < residual.size(); ++i) {
+    if (std::isfinite(residual[i])) level[kriged++] = found.mean[s.used[static_cast<std::size_t>(i)]];
+  }
+  const ScatterByLevel scatter = scatter_by_level(field.close_readings(), level);
+  if (scatter.log_p > std::log(thresholds::scatter_alpha)) return "";
+  return fmt::format(
+      "single readings scatter by {:.1f} dB where levels are low and by {:.1f} dB where they are high: a receiver "
+      "does that, by its noise or as it compresses, and no law of fading, so that none is named",
+      scatter.weak, scatter.strong);
+}
+
 // Tests the fading law. Returns the law of readings: the stated one, or the one named here.
 ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
                                 KrigedReadings& field, Diagnosis& found) {
@@ -137,6 +154,10 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
         "single readings scatter by {:.1f} dB, as normal noise does; the world states none", likeliest.noise));
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
   if (!stated.base.law && replaces(s, best->cause)) return best->law;  // it contradicts nothing
+  if (const std::string why = replaces(s, best->cause) ? of_receiver(s, residual, field, found) : ""; !why.empty()) {
+    found.notes.push_back(why);
+    return likeliest;
+  }
   const double near = replaces(s, best->cause) ? 0 : beside_walls(s, residual, *best);
   if (near > 0) {
     found.notes.push_back(

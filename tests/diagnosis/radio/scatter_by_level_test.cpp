@@ -1,0 +1,46 @@
+// Scatter of single readings by level, of draws whose law is known.
+#include "diagnosis/radio/laws/scatter_by_level.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace muster::diagnosis {
+namespace {
+
+// Pairs at levels from -90 to -40 dBm; what is above `knee` is reported with a share of its scatter.
+ScatterByLevel scatter(double knee, double share, int pairs = 600) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> draw(0, 1.5);
+  std::uniform_real_distribution<double> levels(-90, -40);
+  CloseReadings close;
+  close.pairs = pairs;
+  close.apart.resize(pairs);
+  Eigen::VectorXd level(2 * pairs);
+  for (int k = 0; k < pairs; ++k) {
+    const double at = levels(random), part = at > knee ? share : 1;
+    level[2 * k] = level[2 * k + 1] = at;
+    close.first.push_back(2 * k);
+    close.apart[k] = part * std::abs(draw(random) - draw(random));
+  }
+  return scatter_by_level(close, level);
+}
+
+TEST(ScatterByLevel, IsToldWhereAReceiverCompresses) {
+  const ScatterByLevel found = scatter(-60, 0.4);
+  EXPECT_LT(found.log_p, std::log(1e-6));
+  EXPECT_NEAR(found.weak, 1.5, 0.15);
+  EXPECT_NEAR(found.strong, 0.6, 0.1);
+}
+
+TEST(ScatterByLevel, IsNotToldOfOneLaw) {
+  const ScatterByLevel found = scatter(0, 1);
+  EXPECT_GT(found.log_p, std::log(0.01));
+  EXPECT_NEAR(found.weak, found.strong, 0.2);
+}
+
+TEST(ScatterByLevel, OfAFewPairsNothingIsTold) { EXPECT_EQ(scatter(-60, 0.4, 20).log_p, 0); }
+
+}  // namespace
+}  // namespace muster::diagnosis
