@@ -168,7 +168,9 @@ class Tests {
   // far apart as the law would have them, and as often as without it, its tails are the field's.
   bool has_its_far_ones(const CloseReadings& close, const ReadingDistribution& law, const LawPart& tails) const {
     const double rest = variance_of(law, judge_.step()) - tails.law->variance(tails.params, 1);
-    const double far = thresholds::far_apart * std::sqrt(2 * std::max(rest, 0.0));
+    const double extent = std::sqrt(tails.law->variance(tails.params, 1) / tails.law->beyond(tails.params, 0));
+    const double far = std::max(thresholds::far_apart * std::sqrt(2 * std::max(rest, 0.0)),
+                                thresholds::far_in_tails * extent);  // also beyond what a steep field does
     const auto pairs = static_cast<double>(close.pairs);
     const auto seen = static_cast<double>((close.apart.array() > far).count());
     const double by_law = 2 * pairs * tails.law->beyond(tails.params, far),
