@@ -88,6 +88,18 @@ TEST(FirstHour, CommandsThatReachNoMotor) {
             "<control.path3d robot=\"drone\" path=\"...\"/>\n");
 }
 
+TEST(FirstHour, ASpeedThatIsFarBeyondTheDrive) {
+  const auto at = [](const std::string& v) {
+    return warnings_of(rover + "<physics.planar/><robots.drive/><control.steady robot=\"rover\" v=\"" + v + "\"/>");
+  };
+  EXPECT_EQ(
+      at("3"),
+      "warning: world.xml:2:1: robot 'rover' is asked for 3 m/s, and its drive reaches 1 m/s (max_speed 20 rad/s, "
+      "wheels of radius 0.05 m); expected a lower speed of its controller, or max_speed=\"60\" in its description; "
+      "is that in m/s there?\n");
+  EXPECT_EQ(at("-1.9"), "");
+}
+
 TEST(FirstHour, AControllerWithoutPhysics) {
   EXPECT_EQ(warnings_of(rover + "<control.steady robot=\"rover\" v=\"1\" w=\"0\"/>"),
             "warning: world.xml:3:1: control.steady (control.steady): writes \"robot/rover/command\", which nobody "
