@@ -1,6 +1,7 @@
 #include "diagnosis/data/foreign_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "text/file_kind.hpp"
 #include "text/names.hpp"
@@ -63,6 +64,34 @@ std::string division(const std::string& rule, const std::vector<std::string>& co
   if (!divisor || *divisor == 0 || std::find(columns.begin(), columns.end(), column) == columns.end()) return "";
   return quote(rule) + ": a rule has no division; expected " + print_real(1 / *divisor) + "*" + column +
          " (SCALE*COLUMN + OFFSET)";
+}
+
+// What is wrong with a rule that calls a function of a column, as deg2rad(heading), and how it is written here; "" of
+// any other.
+std::string function_call(const std::string& rule, const std::vector<std::string>& columns) {
+  struct Known {
+    std::string_view name, words;
+    double factor;
+  };
+  static constexpr double degree = 0.017453292519943295;
+  static constexpr Known known[] = {
+      {"deg2rad", "degrees in rad", degree},      {"radians", "degrees in rad", degree},
+      {"toRadians", "degrees in rad", degree},    {"to_radians", "degrees in rad", degree},
+      {"rad2deg", "rad in degrees", 1 / degree},  {"degrees", "rad in degrees", 1 / degree},
+      {"toDegrees", "rad in degrees", 1 / degree}};
+  const std::size_t open = rule.find('(');
+  if (open == rule.npos || open == 0 || rule.back() != ')') return "";
+  std::string name(trimmed(rule.substr(0, open)));
+  const std::string column(trimmed(rule.substr(open + 1, rule.size() - open - 2)));
+  name = name.substr(name.rfind('.') == name.npos ? 0 : name.rfind('.') + 1);  // np.deg2rad, math.radians
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  if (!std::all_of(name.begin(), name.end(), is_letter)) return "";
+  const std::string what = "there is no function " + name;
+  for (const Known& one : known)
+    if (name == one.name)
+      return what + "; expected " + print_real(one.factor) + "*" + column + ", which makes " + std::string(one.words);
+  return what + ", only log10; expected SCALE*COLUMN + OFFSET or SCALE*log10(COLUMN) + OFFSET, such as 0.001*" +
+         (std::find(columns.begin(), columns.end(), column) == columns.end() ? columns.front() : column);
 }
 
 std::string name_of(char separator) {
@@ -255,7 +284,8 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end()) {
     if (const std::size_t number = number_in(column); number > 0 && number <= columns_.size()) return number - 1;
-    if (const std::string fault = division(column, columns_); !fault.empty()) throw invalid(for_whom, fault);
+    for (const std::string& fault : {division(column, columns_), function_call(column, columns_)})
+      if (!fault.empty()) throw invalid(for_whom, fault);
     throw invalid(for_whom,
                   file_ + " has no column " + quote(column) + why_no_column(column) + "; " + suggest(column, columns_));
   }

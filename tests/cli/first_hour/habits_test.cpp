@@ -61,7 +61,8 @@ TEST(Habits, ModelsOfOthers) {
   EXPECT_EQ(refusal_of(robot + "model.sdf" + end),
             begin +
                 "world.xml:2:26: attribute \"model\": model.sdf is SDF, which muster does not read as a robot; "
-                "expected URDF or MJCF: gz sdf, xacro and CAD programs write URDF\n");
+                "expected URDF or MJCF: the URDF or xacro that it was made from (gz sdf -p makes SDF of URDF, and does "
+                "not go back)\n");
   EXPECT_THAT(
       refusal_of(robot + "turtlebot3_burger" + end),
       testing::StartsWith(begin + "world.xml:2:26: attribute \"model\": there is no model \"turtlebot3_burger\"; "
@@ -157,6 +158,27 @@ TEST(Habits, AnImportReadsColumnsWithDotsAndSaysWhatDivisionIs) {
                "\"field.rssi\"?");
   expect_error(import("rssi[dBm] = field.rssi\nrx_x[m] = field.x / 100\n"), 2,
                "log.map:7: \"field.x / 100\": a rule has no division; expected 0.01*field.x (SCALE*COLUMN + OFFSET)");
+}
+
+TEST(Habits, AnImportHasNoFunctionsButSaysTheFactor) {
+  const ProgramFolder folder;
+  folder.write("log.csv", "t,heading_deg,rssi\n1,90,-50\n2,180,-56\n");
+  const auto import = [&](const std::string& yaw) {
+    folder.write("log.map",
+                 "tx = \"a\"\nrx = \"b\"\ntx_x[m] = 0\ntx_y[m] = 0\nrx_x[m] = 1\nrx_y[m] = 0\nrssi[dBm] = rssi\n"
+                 "rx_yaw[rad] = " +
+                     yaw + "\n");
+    return folder.muster({"import", "log.csv", "--map", "log.map", "--out", "out.csv"});
+  };
+  for (const std::string call : {"deg2rad", "radians", "toRadians"})
+    expect_error(import(call + "(heading_deg)"), 2,
+                 "log.map:8: there is no function " + call +
+                     "; expected 0.017453292519943295*heading_deg, which makes degrees in rad");
+  expect_error(
+      import("sqrt(heading_deg)"), 2,
+      "log.map:8: there is no function sqrt, only log10; expected SCALE*COLUMN + OFFSET or SCALE*log10(COLUMN) + "
+      "OFFSET, such as 0.001*heading_deg");
+  EXPECT_EQ(import("0.017453292519943295*heading_deg").exit, 0);
 }
 
 TEST(Habits, AMapSaysWhereItIsAndRefusesCornersOutOfOrder) {
