@@ -211,6 +211,9 @@ Exit check_words(const BundleWords& words) {
   refuse_given(!words.data.empty(), "--data", making);
   if (words.plugins_of_bundle && !words.plugins.empty())
     throw Error(Exit::invalid_input, "--plugins and --plugins-of-bundle exclude each other; expected one of them");
+  if (const std::string& given = words.subject[1]; fs::is_directory(given) || file_kind_of(given) == "XML")
+    throw Error(Exit::invalid_input, given + " is a world, and no bundle; expected muster bundle " + given +
+                                         " --out NAME.tar.zst, which makes one");
   return check_bundle(
       {words.subject[1], words.out, words.plugins, words.workers, !words.plugins_of_bundle, words.json});
 }

@@ -165,7 +165,7 @@ UnknownOption::UnknownOption(std::string of_verb, std::string name, const std::s
       valid_(std::move(valid)) {}
 
 Error UnknownOption::of_others(const std::string& verbs) const {
-  return {exit(), fmt::format("muster {}: there is no option {}, an option of {}; {}; see muster {} --help", verb,
+  return {exit(), fmt::format("muster {}: there is no option {} (an option of {}); {}; see muster {} --help", verb,
                               quote(option), verbs, valid_, verb)};
 }
 

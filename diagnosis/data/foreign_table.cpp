@@ -46,6 +46,7 @@ void refuse_control_characters(std::string_view line, const Place& place) {
 std::string why_no_column(const std::string& rule) {
   if (rule.find_first_of("/()*") != rule.npos)
     return ", and it is no rule; expected SCALE*COLUMN + OFFSET, such as 0.001*ms + 0.5";
+  if (rule.size() > 1 && rule[0] == '-') return ", and it is no rule; expected -1*" + rule.substr(1);
   if (rule.empty() || rule.find_first_of("0123456789") > 1) return "";
   std::string point = rule;
   std::replace(point.begin(), point.end(), ',', '.');
@@ -299,12 +300,30 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
 
 bool ForeignTable::is_nothing(std::size_t row, std::size_t column) const { return means_nothing(text(row, column)); }
 
+// True where the first row has names of units, at least two of them, and otherwise nothing.
+bool ForeignTable::is_line_of_units() const {
+  static constexpr std::string_view units[] = {"s",   "ms", "us", "ns", "m",   "cm",  "mm",  "km",    "rad", "deg",
+                                               "dBm", "dB", "mW", "Hz", "m/s", "MHz", "GHz", "rad/s", "-",   "none"};
+  std::size_t found = 0;
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    std::string cell(text(0, column));
+    if (cell.size() > 2 && (cell.front() == '[' || cell.front() == '(')) cell = cell.substr(1, cell.size() - 2);
+    if (cell.empty()) continue;
+    if (std::find(std::begin(units), std::end(units), cell) == std::end(units)) return false;
+    ++found;
+  }
+  return found >= 2;
+}
+
 std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, const std::string& advice) const {
   std::string cell(text(row, column));
   if (shape_.decimal_comma && cell.find('.') == cell.npos) std::replace(cell.begin(), cell.end(), ',', '.');
   if (cell.size() > 1 && cell[0] == '+') cell.erase(0, 1);  // as loggers print it
   if (const auto value = parse_real(cell)) return value;
   if (means_nothing(cell)) return std::nullopt;
+  if (row == 0 && is_line_of_units())
+    throw invalid(place(row), "the line holds units and no reading; expected it away: sed '" +
+                                  std::to_string(place(row).line) + "d' FILE, and the units in the rules of the map");
   throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell) + advice);
 }
 

@@ -101,8 +101,8 @@ TEST(CommandWords, ListsWithCommasCornersAndPlugins) {
 TEST(CommandWords, AnOptionOfAnotherVerb) {
   EXPECT_THAT(
       words_said_by({"check", "world.xml", "--set", "a/b=1"}),
-      testing::StartsWith("muster: error: muster check: there is no option \"--set\", an option of run, swap, "));
-  EXPECT_THAT(words_said_by({"plugins", "--until", "1"}), HasSubstr("\"--until\", an option of run, swap, compare"));
+      testing::StartsWith("muster: error: muster check: there is no option \"--set\" (an option of run, swap, "));
+  EXPECT_THAT(words_said_by({"plugins", "--until", "1"}), HasSubstr("\"--until\" (an option of run, swap, compare"));
 }
 
 TEST(CommandWords, AnAttributeAsAnOption) {
@@ -114,7 +114,7 @@ TEST(CommandWords, AnAttributeAsAnOption) {
       words_said_by({"run", "world.xml", "--loss=4"}),
       testing::StrEq("muster: error: muster run: there is no option \"--loss\"; a parameter of a plugin or of the "
                      "world is --set INSTANCE/loss=4; see muster run --help\n"));
-  EXPECT_THAT(words_said_by({"run", "world.xml", "--free", "n"}), HasSubstr("\"--free\", an option of fit; "));
+  EXPECT_THAT(words_said_by({"run", "world.xml", "--free", "n"}), HasSubstr("\"--free\" (an option of fit); "));
   EXPECT_THAT(words_said_by({"run", "world.xml", "--duration", "4"}),
               HasSubstr("; did you mean \"--until\"? expected"));
 }
@@ -138,6 +138,15 @@ TEST(CommandWords, TimesAndLengthsWithUnits) {
               HasSubstr("expected metres: --height 1.5\n"));
 }
 
+TEST(CommandWords, ASweepUntilATimeWithAUnit) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of(""));
+  folder.write("s.xml", R"(<sweep world="world.xml" seeds="1" until="1min"/>)");
+  expect_error(
+      folder.muster({"sweep", "s.xml", "--out", "o"}), 2,
+      "s.xml:1:43: until: \"1min\" is not a number; \"min\" follows the number; expected seconds; 1min are 60 s");
+}
+
 TEST(CommandWords, ABundleInThePlaceOfAWorld) {
   const ProgramFolder folder;
   folder.write("b.tar.zst", "\x28\xB5\x2F\xFD....");
@@ -145,6 +154,11 @@ TEST(CommandWords, ABundleInThePlaceOfAWorld) {
   for (const std::string name : {"b.tar.zst", "renamed"})
     expect_error(folder.muster({"bundle", name, "--out", "c.tar.zst"}), 2,
                  name + " is a bundle, and no world; did you mean muster bundle check " + name + "?");
+  folder.write("world.xml", world_of(""));
+  for (const std::string name : {"world.xml", "."})
+    expect_error(
+        folder.muster({"bundle", "check", name}), 2,
+        name + " is a world, and no bundle; expected muster bundle " + name + " --out NAME.tar.zst, which makes one");
   expect_error(folder.muster({"run", "b.tar.zst"}), 2,
                "b.tar.zst: is compressed by zstd; expected plain text, or of a bundle of muster: muster bundle check "
                "b.tar.zst");

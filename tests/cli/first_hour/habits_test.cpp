@@ -179,6 +179,23 @@ TEST(Habits, AnImportHasNoFunctionsButSaysTheFactor) {
       "log.map:8: there is no function sqrt, only log10; expected SCALE*COLUMN + OFFSET or SCALE*log10(COLUMN) + "
       "OFFSET, such as 0.001*heading_deg");
   EXPECT_EQ(import("0.017453292519943295*heading_deg").exit, 0);
+  for (const std::string rule : {"heading_deg*pi/180", "heading_deg * M_PI/180", "pi/180*heading_deg"})
+    expect_error(import(rule), 2,
+                 "log.map:8: \"" + rule +
+                     "\": a rule is SCALE*COLUMN + OFFSET, with numbers for SCALE and OFFSET; expected "
+                     "0.017453292519943295*heading_deg");
+  expect_error(
+      import("heading_deg * 0.0175"), 2,
+      "log.map:8: \"heading_deg * 0.0175\": a rule is SCALE*COLUMN + OFFSET, with numbers for SCALE and OFFSET; "
+      "expected 0.0175*heading_deg");
+  expect_error(
+      import("-heading_deg"), 2,
+      "log.map:8: log.csv has no column \"-heading_deg\", and it is no rule; expected -1*heading_deg; expected "
+      "one of t, heading_deg, rssi; did you mean \"heading_deg\"?");
+  folder.write("log.csv", "t,heading_deg,rssi\ns,deg,dBm\n1,90,-50\n");
+  expect_error(import("0.0175*heading_deg"), 2,
+               "log.csv:2: the line holds units and no reading; expected it away: sed '2d' FILE, and the units in the "
+               "rules of the map");
 }
 
 TEST(Habits, AMapSaysWhereItIsAndRefusesCornersOutOfOrder) {

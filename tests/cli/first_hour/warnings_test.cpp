@@ -40,7 +40,7 @@ TEST(FirstHour, RobotsThatStartInWallsAndInEachOther) {
 }
 
 TEST(FirstHour, ARobotThatStartsBelowTheGround) {
-  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>"}) {
+  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>", "<physics.planar/>"}) {
     EXPECT_EQ(warnings_of("<robot name=\"rover\" at=\"0 0 -1\"/>\n" + physics),
               "warning: world.xml:2:1: robot 'rover' starts 1000 mm below the ground; expected a place (at) on it, z = "
               "0 or above\n");
