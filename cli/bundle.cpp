@@ -12,6 +12,7 @@
 #include "bundle_check.hpp"
 #include "bundle_run.hpp"
 #include "run_options.hpp"
+#include "text/file_kind.hpp"
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/temporary_folder.hpp"
@@ -210,6 +211,9 @@ Exit check_words(const BundleWords& words) {
   refuse_given(!words.data.empty(), "--data", making);
   if (words.plugins_of_bundle && !words.plugins.empty())
     throw Error(Exit::invalid_input, "--plugins and --plugins-of-bundle exclude each other; expected one of them");
+  if (const std::string& given = words.subject[1]; fs::is_directory(given) || file_kind_of(given) == "XML")
+    throw Error(Exit::invalid_input, given + " is a world, and no bundle; expected muster bundle " + given +
+                                         " --out NAME.tar.zst, which makes one");
   return check_bundle(
       {words.subject[1], words.out, words.plugins, words.workers, !words.plugins_of_bundle, words.json});
 }
@@ -247,6 +251,10 @@ int run_bundle(const Arguments& arguments) {
   if (words.subject.size() != 1)
     throw Error(Exit::invalid_input, "expected one WORLD, or check FILE; " + quote(words.subject[1]) + " is too much");
   refuse_given(words.plugins_of_bundle, "--plugins-of-bundle", "`muster bundle check FILE`");
+  if (const std::string& given = words.subject[0];
+      given.ends_with(archive_ending) || file_kind_of(given) == "compressed by zstd")
+    throw Error(Exit::invalid_input,
+                given + " is a bundle, and no world; did you mean muster bundle check " + given + "?");
   if (words.out.empty()) throw Error(Exit::invalid_input, "--out is missing; expected a file to write, NAME.tar.zst");
   if (!words.out.ends_with(archive_ending))
     throw Error(Exit::invalid_input, "--out: " + quote(words.out) + " does not end in " + archive_ending +

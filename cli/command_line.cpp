@@ -10,6 +10,7 @@
 #include "text/error.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/synonyms.hpp"
 
 namespace muster::cli {
 
@@ -105,6 +106,36 @@ std::string too_many(const CLI::App& app, const std::string& word) {
   return quote(word) + " is one word too many" + hint;
 }
 
+// The option that is meant: by a word of others, or by its letters without the dashes, which all options share.
+std::string meant_option(const std::string& given, const std::vector<std::string>& valid) {
+  if (const std::string same = synonym(given, valid); !same.empty()) return "; did you mean " + quote(same) + "?";
+  std::vector<std::string> names;
+  for (const std::string& each : valid) names.push_back(each.substr(2));
+  const std::string near = did_you_mean(given.substr(std::min(given.find_first_not_of('-'), given.size())), names);
+  const auto open = near.find('"');
+  return open == near.npos ? "" : near.substr(0, open + 1) + "--" + near.substr(open + 1);
+}
+
+// Of an option such as --step 0.002 or --step=0.002: it may be meant as an attribute of a plugin.
+std::string as_attribute(const CLI::App& app, const std::vector<std::string>& words, const std::string& option) {
+  const auto equals = option.find('=');
+  std::string name = option.substr(0, equals), value = equals == option.npos ? "" : option.substr(equals + 1);
+  name = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  std::replace(name.begin(), name.end(), '-', '_');
+  const CLI::Option* attributes = app.get_option_no_throw("attributes");
+  if (name.size() < 2 || (!attributes && !app.get_option_no_throw("--set"))) return "";
+  std::vector<std::string> values(std::find(words.begin(), words.end(), option), words.end());
+  if (!values.empty()) values.erase(values.begin());
+  if (attributes) values.insert(values.end(), attributes->results().begin(), attributes->results().end());
+  const auto given = std::find_if(values.begin(), values.end(), [](const std::string& word) {
+    return !word.starts_with("--") && word.find('=') == word.npos;
+  });
+  if (value.empty()) value = given == values.end() ? "VALUE" : *given;
+  return (attributes ? "attributes of the new plugin are words without dashes: "
+                     : "a parameter of a plugin or of the world is --set INSTANCE/") +
+         name + '=' + value;
+}
+
 // What is wrong with words that no option takes.
 std::string unexpected(const CLI::App& app) {
   const auto words = app.remaining();
@@ -115,10 +146,28 @@ std::string unexpected(const CLI::App& app) {
     for (const auto& name : each->get_lnames()) valid.push_back("--" + name);
   }
   const std::string given = option->substr(0, option->find('='));
-  return "there is no option " + quote(given) + "; " + suggest(given, valid);
+  const std::string all = expected_one_of(valid), meant = meant_option(given, valid);
+  if (!meant.empty()) throw UnknownOption(app.get_name(), given, meant.substr(2) + ' ' + all, false, all);
+  const std::string attribute = as_attribute(app, words, *option);
+  throw UnknownOption(app.get_name(), given, attribute.empty() ? all : attribute,
+                      app.get_option_no_throw("attributes") == nullptr, all);
 }
 
 }  // namespace
+
+UnknownOption::UnknownOption(std::string of_verb, std::string name, const std::string& remedy, bool is_guess_,
+                             std::string valid)
+    : Error(Exit::invalid_input, fmt::format("muster {}: there is no option {}; {}; see muster {} --help", of_verb,
+                                             quote(name), remedy, of_verb)),
+      verb(std::move(of_verb)),
+      option(std::move(name)),
+      is_guess(is_guess_),
+      valid_(std::move(valid)) {}
+
+Error UnknownOption::of_others(const std::string& verbs) const {
+  return {exit(), fmt::format("muster {}: there is no option {} (an option of {}); {}; see muster {} --help", verb,
+                              quote(option), verbs, valid_, verb)};
+}
 
 CommandLine::CommandLine(const std::string& verb, const std::string& help)
     : app_(std::make_unique<CLI::App>(help, verb)) {}

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "text/error.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -59,6 +61,22 @@ class CommandLine {
 };
 
 struct Helped {};
+
+// An option that the verb has not. Another verb may have it, which only the program knows.
+class UnknownOption : public Error {
+ public:
+  // `remedy`: what the verb knows itself, the option that is meant or those that it has. `is_guess`: which gives way to
+  // another verb that has the option.
+  UnknownOption(std::string of_verb, std::string name, const std::string& remedy, bool is_guess, std::string valid);
+  // The same of an option that these other verbs have.
+  Error of_others(const std::string& verbs) const;
+
+  const std::string verb, option;
+  const bool is_guess;
+
+ private:
+  const std::string valid_;
+};
 
 // What a verb declares, as data: for the manual page, and for what a shell completes.
 struct DeclaredOption {

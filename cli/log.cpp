@@ -74,7 +74,7 @@ int log_recover(const LogVerbWords& words) {
 
 std::uint64_t time_of(const std::optional<std::string>& given, const char* option, std::uint64_t otherwise) {
   if (!given) return otherwise;
-  const double time = real_of(*given, option);
+  const double time = real_of(*given, option, "s");
   if (!(time >= 0 && time < 1e10))
     throw Error(Exit::invalid_input, std::string(option) + ": " + *given + " s is out of range; expected 0 to 1e10 s");
   return run_log::log_time(time);
@@ -84,7 +84,10 @@ int log_cut(const LogVerbWords& words) {
   if (words.out.empty()) throw Error(Exit::invalid_input, "cut needs --out, the file to write");
   check_written(words, words.out);
   const mcap::Span span{time_of(words.from, "--from", 0), time_of(words.to, "--to", ~std::uint64_t{0})};
-  if (span.first >= span.end)
+  if (span.first > span.end)
+    throw Error(Exit::invalid_input, "--from " + words.from.value_or("0") + " is after --to " + *words.to +
+                                         "; expected --from " + *words.to + " --to " + words.from.value_or("0"));
+  if (span.first == span.end)
     throw Error(Exit::invalid_input,
                 "--from " + words.from.value_or("0") + " is not before --to " + *words.to + ", which is not included");
   const LogContents contents = contents_of(words.file);

@@ -1,6 +1,7 @@
 // muster VERB ...: finds the verb, runs it, and turns errors into one line and an exit code.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -79,6 +80,46 @@ int print_completion(const Arguments& words) {
   return fmt::print("{}", bash_completion(declared_verbs())), 0;
 }
 
+// "run, swap, compare": the verbs that have an option which another has not.
+std::string verbs_with(const UnknownOption& e) {
+  std::string with;
+  for (const auto& verb : verbs) {
+    if (verb.run == run_exam) continue;  // it declares its options elsewhere
+    for (const DeclaredOption& option : declared(verb.run).options) {
+      if (std::find(option.names.begin(), option.names.end(), e.option) != option.names.end())
+        with += (with.empty() ? "" : ", ") + std::string(verb.name);
+    }
+  }
+  return with;
+}
+
+// What verbs of others are here, as they are to be typed.
+struct Habit {
+  const char *verb, *what, *command;
+};
+constexpr Habit habits[] = {{"view", "to watch a run", "muster run {} --view"},
+                            {"gui", "to watch a run", "muster run {} --view"},
+                            {"watch", "to watch a run", "muster run {} --view"},
+                            {"visualize", "to watch a run", "muster run {} --view"},
+                            {"rviz", "to watch a run", "muster run {} --view"},
+                            {"record", "to record a run for Foxglove and ROS 2", "muster run {} --mcap run.mcap"},
+                            {"set", "to set a parameter", "muster run {} --set INSTANCE/NAME=VALUE"},
+                            {"step", "to run some seconds alone", "muster run {} --until SECONDS"},
+                            {"resume", "to go on from a state", "muster run {} --restore FILE"},
+                            {"restore", "to go on from a state", "muster run {} --restore FILE"},
+                            {"save", "to save the state at the end", "muster run {} --save FILE"}};
+
+[[noreturn]] void refuse_verb(const Arguments& words, const std::vector<std::string>& names) {
+  for (const Habit& habit : habits) {
+    if (words[0] != habit.verb) continue;
+    const std::string world = words.size() > 1 && !words[1].starts_with("-") ? words[1] : "WORLD";
+    throw Error(Exit::invalid_input,
+                fmt::format("there is no verb {}; {}: {} (muster --help lists the verbs)", quote(words[0]), habit.what,
+                            fmt::format(fmt::runtime(habit.command), world)));
+  }
+  throw Error(Exit::invalid_input, "there is no verb " + quote(words[0]) + "; " + suggest(words[0], names));
+}
+
 int run(const Arguments& words) {
   if (words.empty()) return print_usage(stderr), static_cast<int>(Exit::invalid_input);
   if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") return print_usage(stdout), 0;
@@ -87,10 +128,16 @@ int run(const Arguments& words) {
   if (words[0] == "--completion") return print_completion(words);
   std::vector<std::string> names;
   for (const auto& verb : verbs) {
-    if (words[0] == verb.name) return verb.run({words.begin() + 1, words.end()});
     names.emplace_back(verb.name);
+    if (words[0] != verb.name) continue;
+    try {
+      return verb.run({words.begin() + 1, words.end()});
+    } catch (const UnknownOption& e) {
+      const std::string others = e.is_guess ? verbs_with(e) : "";
+      throw others.empty() ? static_cast<const Error&>(e) : e.of_others(others);
+    }
   }
-  throw Error(Exit::invalid_input, "there is no verb " + quote(words[0]) + "; " + suggest(words[0], names));
+  refuse_verb(words, names);
 }
 
 int fail(Exit code, const std::string& message) {

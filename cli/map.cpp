@@ -85,9 +85,9 @@ MapWords words_of(const Arguments& arguments) {
   line.flag("--json", words.json, "print a summary as JSON");
   line.parse(arguments);
   WrittenFiles::writes_folder(words.out, "--out");
-  words.at = real_of(at, "--at");
-  words.height = real_of(height, "--height");
-  for (const std::string& one : area) words.area.push_back(real_of(one, "--area"));
+  words.at = real_of(at, "--at", "s");
+  words.height = real_of(height, "--height", "m");
+  for (const std::string& one : area) words.area.push_back(real_of(one, "--area", "m"));
   if (!words.area.empty()) check_area(words.area);
   return words;
 }

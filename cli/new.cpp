@@ -92,23 +92,39 @@ std::vector<fs::path> files_of(const fs::path& skeleton) {
   return result;
 }
 
-// A plugin of the same name would hide the one that worlds mean now, or be hidden by it.
-void refuse_taken(const std::vector<fs::path>& skeleton, const std::string& name) {
+// The word that stands before the dot of a skeleton's plugin, "control"; "" where it is none.
+std::string family_of(const std::vector<fs::path>& skeleton) {
   for (const fs::path& file : skeleton) {
     const std::string stem = file.stem().string();
-    if (file.extension() != ".cpp" || !stem.ends_with("_" + mark)) continue;
-    const std::string family = stem.substr(0, stem.size() - mark.size() - 1);
-    const auto taken = [&](const std::string& by) {
-      const auto folders = plugin_path();
-      return std::any_of(folders.begin(), folders.end(),
-                         [&](const fs::path& folder) { return fs::exists(folder / (family + "_" + by + ".so")); });
-    };
-    if (!taken(name)) continue;
-    int number = 2;
-    while (taken(fmt::format("{}_{}", name, number))) ++number;
-    throw Error(Exit::invalid_input, fmt::format("there is a plugin {}.{} already; expected a new name, such as {}",
-                                                 family, name, quote(fmt::format("{}_{}", name, number))));
+    if (file.extension() == ".cpp" && stem.ends_with("_" + mark)) return stem.substr(0, stem.size() - mark.size() - 1);
   }
+  return "";
+}
+
+// "follow" of "control.follow", "control_follow" and "controller.follow"; "" where the kind does not stand before it.
+std::string without_kind(const std::string& name, const std::string& family, const std::string& kind) {
+  if (family.empty()) return "";
+  for (const std::string& begin : {family + '.', family + '_', family + '-', kind + '.'}) {
+    const std::string rest = nearest_plugin_name(name.substr(std::min(begin.size(), name.size())));
+    if (name.starts_with(begin) && !rest.empty()) return rest;
+  }
+  return "";
+}
+
+// A plugin of the same name would hide the one that worlds mean now, or be hidden by it.
+void refuse_taken(const std::vector<fs::path>& skeleton, const std::string& name) {
+  const std::string family = family_of(skeleton);
+  const auto taken = [&](const std::string& by) {
+    const auto folders = plugin_path();
+    return !family.empty() && std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+      return fs::exists(folder / (family + "_" + by + ".so"));
+    });
+  };
+  if (!taken(name)) return;
+  int number = 2;
+  while (taken(fmt::format("{}_{}", name, number))) ++number;
+  throw Error(Exit::invalid_input, fmt::format("there is a plugin {}.{} already; expected a new name, such as {}",
+                                               family, name, quote(fmt::format("{}_{}", name, number))));
 }
 
 void write_file(const fs::path& file, const std::string& text) {
@@ -167,6 +183,16 @@ int run_new(const Arguments& arguments) {
 
   if (kinds.empty())
     throw Error(Exit::io, {templates.string()}, "has no skeletons; expected a folder each, as installed");
+  const auto skeleton = files_of(templates / kind);
+  const std::string family = family_of(skeleton), meant = is_plugin_name(name) ? name : nearest_plugin_name(name);
+  for (const std::string& each : {name, meant}) {
+    const std::string rest = without_kind(each, family, kind);
+    if (!rest.empty())
+      throw Error(Exit::invalid_input,
+                  fmt::format("{} has its kind in it, which is put before the name; expected muster "
+                              "new {} {}, which makes {}.{}",
+                              quote(name), kind, rest, family, rest));
+  }
   if (!is_plugin_name(name)) {
     const std::string near = nearest_plugin_name(name);
     throw Error(Exit::invalid_input,
@@ -174,7 +200,6 @@ int run_new(const Arguments& arguments) {
                             "most {} in all{}",
                             quote(name), longest_name, near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }
-  const auto skeleton = files_of(templates / kind);
   refuse_taken(skeleton, name);
   const fs::path folder = (fs::path(in) / name).lexically_normal();
   const auto written = write_project(skeleton, name, folder);

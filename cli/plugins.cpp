@@ -100,10 +100,14 @@ void describe_element(const std::string& name, bool json, const std::vector<std:
     return;
   }
   std::vector<std::string> family;     // plugins whose names begin so: "radio" may mean "radio.multiwall"
-  std::vector<std::string> namesakes;  // or end so: "multiwall"
+  std::vector<std::string> namesakes;  // or end so: "multiwall", or have that file: "radio_multiwall"
+  std::string stem = name.ends_with(".so") ? name.substr(0, name.size() - 3) : name;
   for (const auto& one : list_plugins(folders)) {
     if (one.library && std::string(one.library->id()).starts_with(name + ".")) family.emplace_back(one.library->id());
-    if (one.library && std::string(one.library->id()).ends_with("." + name)) namesakes.emplace_back(one.library->id());
+    std::string file = one.library ? std::string(one.library->id()) : "";
+    std::replace(file.begin(), file.end(), '.', '_');
+    if (one.library && (std::string(one.library->id()).ends_with("." + name) || file == stem))
+      namesakes.emplace_back(one.library->id());
   }
   throw Error(Exit::invalid_input, "there is no element " + quote(name) + ", and a plugin has a dot in its name; " +
                                        (!namesakes.empty() ? expected_one_of(namesakes)
@@ -154,7 +158,8 @@ int run_describe(const Arguments& arguments) {
   if (std::filesystem::is_regular_file(id))
     throw Error(Exit::invalid_input,
                 "muster describe: " + id + " is a file; expected a plugin or an element (muster check reads a world)");
-  if (id.find('.') == std::string::npos) return describe_element(id, json, plugin_path(folders)), 0;
+  if (id.find('.') == std::string::npos || id.ends_with(".so"))
+    return describe_element(id, json, plugin_path(folders)), 0;
   const auto library = Library::load(id.substr(0, id.find('/')), {}, plugin_path(folders), {"muster describe"});
   auto out = Json::array();
   for (const auto& plugin : library->plugins()) {

@@ -40,7 +40,7 @@ ProbeWords words_of(const Arguments& arguments) {
   line.flag("--expected", words.expected, "as the channel is expected on average, without shadowing and fading");
   line.flag("--json", words.json, "print the budget as JSON");
   line.parse(arguments);
-  words.at = real_of(at, "--at");
+  words.at = real_of(at, "--at", "s");
   return words;
 }
 

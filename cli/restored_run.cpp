@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "text/number.hpp"
+
 namespace muster::cli {
 namespace {
 
@@ -47,7 +49,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-void restore(Simulation& run, const std::string& file) {
+void restore(Simulation& run, const std::string& file, bool has_seed) {
   const Snapshot snapshot = Snapshot::load(file);
   const auto now = stated(run);
   try {
@@ -55,6 +57,11 @@ void restore(Simulation& run, const std::string& file) {
   } catch (const Error& refused) {
     throw Error(refused.exit(), "--restore: " + file + ": " + refused.what());
   }
+  if (has_seed)
+    fmt::print(stderr,
+               "muster: note: --seed {} counts from {} s on: what {} holds was drawn from the seed of its own run, and "
+               "the fields of the channel are others from then on\n",
+               run.world().seed, print_real(run.time()), file);
   std::string changed;
   for (const auto& [path, values] : stated(run)) {
     const auto before = now.find(path);

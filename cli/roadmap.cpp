@@ -68,8 +68,8 @@ RoadmapWords roadmap_words(const Arguments& arguments) {
   words.step = positive(step, "--step", 0.01), words.margin = positive(margin, "--margin", 0);
   words.room = positive(room, "--room", 0), words.height = positive(height, "--height", 0.01);
   if (words.radius) positive(*words.radius, "--radius", 1e-3);
-  for (const std::string& one : from) words.from.push_back(real_of(one, "--from"));
-  for (const std::string& one : to) words.to.push_back(real_of(one, "--to"));
+  for (const std::string& one : from) words.from.push_back(real_of(one, "--from", "m"));
+  for (const std::string& one : to) words.to.push_back(real_of(one, "--to", "m"));
   if (words.to.empty() && (!words.path.empty() || !words.from.empty()))
     throw Error(Exit::invalid_input,
                 std::string(words.path.empty() ? "--from" : "--path") + " needs a goal; expected --to X Y beside it");
@@ -122,7 +122,7 @@ PlannedRobot planned_robot(const World& world, const RoadmapWords& words) {
   PlannedRobot result;
   const auto names = declared_names(world, "robot");
   if (words.radius) {
-    result.radius = real_of(*words.radius, "--radius");
+    result.radius = real_of(*words.radius, "--radius", "m");
     result.heights = {0, words.height};
     return result;
   }

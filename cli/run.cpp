@@ -42,7 +42,8 @@ void declare(CommandLine& line, RunWords& words) {
   declare(line, static_cast<RunOptions&>(words));
   declare(line, words.log);
   line.option("--save", words.save, "write the state at the end to this file");
-  line.option("--restore", words.restore, "begin from a state that --save wrote");
+  line.option("--restore", words.restore,
+              "begin from a state that --save wrote; a --seed beside it counts from there on");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks").at_least(1);
   line.flag("--cost", words.cost, "print the CPU time of each plugin, and of a link in those of the radio");
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
@@ -199,7 +200,7 @@ World asked_world(RunWords& words) {
   add_plotted(words.log, words.out, world.records);
   if (!words.swap.instance.empty()) {
     const PluginChange& swap = words.swap;
-    const uint64_t tick = ticks_of(real_of(words.swap_at, "--at"), world.dt, {"--at"});
+    const uint64_t tick = ticks_of(real_of(words.swap_at, "--at", "s"), world.dt, {"--at"});
     if (tick >= world.ticks)
       throw Error(Exit::invalid_input, "--at: " + words.swap_at +
                                            " s is at the end of the run or after it; expected less than " +
@@ -226,7 +227,7 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   Simulation run(world, standard(), std::move(options));
   check_records(run);
   for (const std::string& term : double_terms(run)) fmt::print(stderr, "muster: warning: {}\n", term);
-  if (!words.restore.empty()) restore(run, words.restore);
+  if (!words.restore.empty()) restore(run, words.restore, words.seed.has_value());
   set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)
     throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +

@@ -6,6 +6,7 @@
 
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/unit_words.hpp"
 #include "world_file/params.hpp"
 
 namespace muster::cli {
@@ -22,9 +23,17 @@ void declare(CommandLine& line, RunOptions& words) {
   line.flag("--json", words.json, "print the outcome as JSON");
 }
 
-double real_of(const std::string& text, const char* option) {
+double real_of(const std::string& text, const char* option, const char* unit) {
   const auto value = parse_real(text);
-  if (!value) throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text));
+  if (!value) {
+    const std::string name = std::string_view(unit) == "s"   ? "seconds"
+                             : std::string_view(unit) == "m" ? "metres"
+                                                             : unit;
+    const auto meant = in_unit(unit, text);
+    throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text) +
+                                         (name.empty() ? "" : "; expected " + name) +
+                                         (meant ? ": " + std::string(option) + ' ' + print_real(*meant) : ""));
+  }
   return *value;
 }
 
@@ -40,7 +49,7 @@ uint64_t tick_in_run(const World& world, double seconds, const char* option) {
 
 World world_of(const std::string& path, const RunOptions& words) {
   World world = read_world(path, standard());
-  if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until"), world.dt, {"--until"});
+  if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until", "s"), world.dt, {"--until"});
   if (words.seed) {
     const auto seed = parse_integer(*words.seed);
     if (!seed || *seed < 0)

@@ -21,7 +21,7 @@ struct RunOptions {
 void declare(CommandLine& line, RunOptions& words);
 
 // The number, or Error that names the option.
-double real_of(const std::string& text, const char* option);
+double real_of(const std::string& text, const char* option, const char* unit = "");
 
 // The tick of that time of the world's run, or Error that names the option: where it is after the run's end.
 uint64_t tick_in_run(const World& world, double seconds, const char* option);

@@ -42,7 +42,15 @@ std::optional<sweep::Share> share_of(const SweepWords& words) {
   if (!words.index && !words.of) return {};
   if (!words.index || !words.of)
     throw Error(Exit::invalid_input, "--index and --of belong together: the share, from 1, and how many there are");
-  const sweep::Share result{count_of(*words.index, "--index"), count_of(*words.of, "--of")};
+  const int of = count_of(*words.of, "--of");
+  const auto index = parse_integer(*words.index);
+  if (!index || *index < 1)
+    throw Error(Exit::invalid_input,
+                fmt::format("--index: {} is no share; expected an integer from 1 to {}{}", quote(*words.index), of,
+                            index && *index == 0 ? ": shares count from 1 (of an array of Slurm from 0: --index "
+                                                   "$((SLURM_ARRAY_TASK_ID + 1)))"
+                                                 : ""));
+  const sweep::Share result{count_of(*words.index, "--index"), of};
   if (result.index > result.of)
     throw Error(Exit::invalid_input, fmt::format("--index: there is no share {} of {}; expected one from 1 to {}",
                                                  result.index, result.of, result.of));

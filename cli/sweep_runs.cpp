@@ -8,6 +8,7 @@
 #include "run_options.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/unit_words.hpp"
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -83,7 +84,9 @@ World SweepRuns::world_of(const std::vector<Word>& values) {
   World world = read_world(file_.beside(place.text), standard());
   if (!file_.until) return world;
   const auto until = parse_real(file_.until->text);
-  if (!until) throw invalid(file_.until->place, "until: " + why_not_real(file_.until->text));
+  if (!until)
+    throw invalid(file_.until->place, "until: " + why_not_real(file_.until->text) + "; expected seconds" +
+                                          other_unit_hint("s", file_.until->text));
   world.ticks = ticks_of(*until, world.dt, file_.until->place);
   return world;
 }

@@ -105,10 +105,12 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
   const bool is_path = is_path_of_a_file(model);
   const std::string file = is_path ? model : model + ".urdf";
   if (const std::string kind = of_other_kind(model); !kind.empty())
-    throw std::runtime_error(model + " is " + kind + ", which muster does not read as a robot; expected URDF or MJCF" +
-                             (kind == "a mesh" ? ", in which a mesh may be a shape"
-                                               : ": gz sdf, xacro and CAD "
-                                                 "programs write URDF"));
+    throw std::runtime_error(
+        model + " is " + kind + ", which muster does not read as a robot; expected URDF or MJCF" +
+        (kind == "a mesh" ? ", in which a mesh may be a shape"
+         : kind == "SDF"
+             ? ": the URDF or xacro that it was made from (gz sdf -p makes SDF of URDF, and does not go back)"
+             : ": the one that it was made from, or that its program exports"));
   if (!is_path && model.find('/') != std::string::npos) {
     throw std::runtime_error("\"" + model + "\" is neither a name nor the path of a .urdf file" +
                              suggestion(model, models_in(directories)));

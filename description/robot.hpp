@@ -63,6 +63,9 @@ struct Follower {
   int side = 0;           // 0 left, 1 right
 };
 
+// At the rim of a drive's wheels [m/s], and as m/s2: with less a robot creeps, and its limits are in doubt.
+inline constexpr double slowest_drive = 0.1;
+
 // A motor on each side that turns one wheel, or all wheels of its side at one rate (skid steer); all other parts slide
 // on the ground. Of a car it is the rear axle, of a mecanum drive the front one, whose followers have motors too.
 struct DifferentialDrive {

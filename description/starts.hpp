@@ -88,6 +88,7 @@ template <class PoseOf, class RobotOf, class NameOf>
 std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of, const NameOf& name_of,
                           const std::vector<Block>& walls) {
   constexpr double tolerance = 1e-3;  // [m] boxes around round shapes may be that deep in each other
+  constexpr double no_robot = 50;     // [m] of its middle: its description has been told of, and not where it starts
   std::vector<std::vector<Block>> blocks(robots);
   std::vector<double> reach(robots, 0);
   std::vector<Fault> result;
@@ -109,6 +110,7 @@ std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const Robot
     if (lowest + highest < 0)
       result.push_back({i, "robot '" + std::string(name_of("robot", i)) + "' starts " + millimetres(-lowest) +
                                " mm below the ground; expected a place (at) on it, z = 0 or above"});
+    if (reach[i] > no_robot) continue;
     for (const Block& wall : walls) {
       const double deep = deepest(blocks[i], {wall});
       if (deep <= tolerance) continue;

@@ -189,6 +189,16 @@ class Converter {
     return result;
   }
 
+  // The scale with which a mesh of another size would be one of a robot's.
+  static std::string meant_scale(const urdf::Mesh& from, double largest) {
+    const double factor = largest > 1 ? 1e-3 : 1e3, size = largest * factor;
+    if (size > 100 || size < 1e-3) return "is its scale right?";
+    const auto scaled = [&](double own) { return print_number(own * factor); };
+    return std::string(largest > 1 ? "is it in millimetres?" : "is it in metres?") + " expected <mesh filename=\"" +
+           from.filename + "\" scale=\"" + scaled(from.scale.x) + ' ' + scaled(from.scale.y) + ' ' +
+           scaled(from.scale.z) + "\"/>, with which it is " + print_number(size) + " m large";
+  }
+
   Mesh mesh(const urdf::Mesh& from, const std::string& name, int line) {
     std::string folder = std::filesystem::absolute(source_.file).parent_path().string(), file = from.filename;
     const std::string what = "link '" + name + "': mesh '" + from.filename + "' ";
@@ -203,7 +213,7 @@ class Converter {
       const double largest = bounds.sizes().maxCoeff();
       if (largest > 100 || largest < 1e-3) {
         robot_.warnings.push_back(source_.file + ":" + std::to_string(line) + ": " + what + "is " +
-                                  print_number(largest) + " m large; is its scale right?");
+                                  print_number(largest) + " m large; " + meant_scale(from, largest));
       }
       return result;
     } catch (const std::runtime_error& error) {

@@ -53,6 +53,32 @@ std::string doubt_of_length(const XMLElement& element, const char* attribute, do
   return "";
 }
 
+// What a radius is to be where the wheel has `real` metres: given in another unit, as a diameter, or merely another.
+std::string doubt_of_radius(const XMLElement& element, double given, double real) {
+  constexpr double alike = 0.02;
+  if (const std::string unit = doubt_of_length(element, "wheel_radius", given, real); !unit.empty()) return unit;
+  return std::string(std::abs(given - 2 * real) < alike * given ? "; is it the diameter? expected " : "; expected ") +
+         "wheel_radius=\"" + print_number(real) + '"';
+}
+
+// Limits of a wheel [rad/s, rad/s2] that make the robot creep where they were meant in m/s and m/s2 of its rim.
+void warn_of_creeping(const Source& source, const XMLElement& element, const DifferentialDrive& drive, Robot& robot) {
+  const auto doubt = [&](const char* name, double limit, const char* of_rim, const char* of_wheel) -> std::string {
+    if (!(limit * drive.wheel_radius < slowest_drive)) return "";
+    const char* given = element.Attribute(name);
+    const std::string what = given ? std::string(name) + "=\"" + given + "\" " + of_wheel
+                                   : "the limit of its wheels' joints, " + print_number(limit) + ' ' + of_wheel + ',';
+    return what + " of a wheel is " + print_number(limit * drive.wheel_radius) + ' ' + of_rim + " at its rim (radius " +
+           print_number(drive.wheel_radius) + " m); is it in " + of_rim + "? " + print_number(limit) + ' ' + of_rim +
+           " are " + print_number(limit / drive.wheel_radius) + ' ' + of_wheel;
+  };
+  for (const std::string& what : {doubt("max_speed", drive.max_speed, "m/s", "rad/s"),
+                                  doubt("max_acceleration", drive.max_acceleration, "m/s2", "rad/s2")}) {
+    if (!what.empty())
+      robot.warnings.push_back(source.file + ":" + std::to_string(element.GetLineNum()) + ": " + tag(element) + what);
+  }
+}
+
 // Checks that the axle is along the body's y axis, the left wheel on the left, and that positive rates turn forward.
 Eigen::Vector3d check_wheel(const Source& source, const XMLElement& element, const Robot& robot, std::size_t index,
                             double y) {
@@ -77,7 +103,7 @@ void check_radius(const Source& source, const XMLElement& element, const Robot& 
   source.fail(element.GetLineNum(), tag(element) + "wheel_radius=\"" + (given ? given : print_number(wheel_radius)) +
                                         "\" contradicts the wheel of joint '" + joint.name +
                                         "', whose collision shape has a radius of " + print_number(radius) +
-                                        doubt_of_length(element, "wheel_radius", wheel_radius, radius));
+                                        doubt_of_radius(element, wheel_radius, radius));
 }
 
 // Not an error: the world file may put the robot's frame above the ground.
@@ -223,6 +249,7 @@ void complete_drive(const Source& source, const XMLElement& element, Differentia
     drive.effective_base = effective_base(drive.wheel_base, ways);
   }
   warn_of_height(source, element, left[0].z(), drive.wheel_radius, robot);
+  warn_of_creeping(source, element, drive, robot);
 }
 
 std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {

@@ -1,6 +1,7 @@
 #include "claim.hpp"
 
 #include <algorithm>
+#include <muster/row_types.hpp>
 
 #include "text/names.hpp"
 #include "text/paths.hpp"
@@ -208,6 +209,21 @@ std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const 
   return cells;
 }
 
+namespace {
+
+std::string as_type(const std::string& type) { return type.empty() ? "" : ", those of " + type; }
+
+// `, those of Odometry: expected read<Odometry>("robot/{robot}/odometry")`.
+std::string by_type(const Claim& claim, const std::string& type) {
+  static const char* calls[] = {"", "read", "write", "add", "modify"};
+  if (type.empty()) return "";
+  const bool is_optional = claim.kind == MUSTER_READ && (claim.flags & MUSTER_OPTIONAL);
+  return as_type(type) + "; expected " + calls[claim.kind] + (is_optional ? "_if_any" : "") + '<' + type +
+         ">(...) there";
+}
+
+}  // namespace
+
 int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns) {
   Claim made;
   made.kind = kind;
@@ -234,7 +250,8 @@ int Instance::claim(uint32_t kind, uint32_t flags, const std::string& table, con
     throw refused("adds to " + quote(table) + "; expected a whole table of numbers");
   const auto* quantity = standard_quantity(*around_.standard, made.name);
   if (quantity && Columns(quantity->columns) != made.columns)
-    throw refused("claims " + quote(table) + " as \"" + columns + "\"; its columns are \"" + quantity->columns + '"');
+    throw refused("claims " + quote(table) + " as \"" + columns + "\"" + as_type(row_type(columns)) +
+                  "; its columns are \"" + quantity->columns + '"' + by_type(made, row_type(quantity->columns)));
   if (kind == MUSTER_WRITE && (flags & MUSTER_JOINS) && set.kind != SetKind::live)
     throw refused("claims " + quote(table) + " to let rows join, but the rows of " + quote(set.name) + " do not join");
   check_blindness(made, *this, around_);

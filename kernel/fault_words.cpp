@@ -39,6 +39,13 @@ bool has_place(std::string_view words) {
   return is_there;
 }
 
+const XmlAttribute* attribute_of(std::string_view words, const InstanceDeclaration& declared) {
+  constexpr std::string_view begin = "attribute \"";
+  const auto end = words.find("\": ");
+  if (!words.starts_with(begin) || end == words.npos || end < begin.size()) return nullptr;
+  return declared.attribute(words.substr(begin.size(), end - begin.size()));
+}
+
 std::string with_names(std::string words, const Blackboard& board, const World& world) {
   const std::string mark = " row ";
   std::string place;

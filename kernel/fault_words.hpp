@@ -22,6 +22,9 @@ bool has_place(std::string_view words);
 // `wall "south"`.
 std::string with_names(std::string words, const Blackboard& board, const World& world);
 
+// The attribute that words such as `attribute "peers": no radio is ...` are about, where the element has it; else null.
+const XmlAttribute* attribute_of(std::string_view words, const InstanceDeclaration& declared);
+
 // A file in the world's folder by the path that the user knows it by: as the world's own was given.
 std::string as_given(const std::string& words, const World& world, const Library::SearchPath& folders);
 

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "crash_report.hpp"
+#include "fault_words.hpp"
 #include "instance.hpp"
 #include "loader/float_guard.hpp"
 #include "text/names.hpp"
@@ -262,7 +263,15 @@ struct Host {
   }
 
   static void event(const muster_host* host, const char* message) {
-    guarded(host, 0, [&] { return of(host).events.emplace_back(message), 0; });
+    Instance& i = of(host);
+    guarded(host, 0, [&] {
+      const std::string text = message, begin = "warning: ";
+      const bool is_warning = text.starts_with(begin);
+      return i.events.push_back(
+                 is_warning ? begin + as_given(text.substr(begin.size()), *i.around_.world, i.around_.search_path)
+                            : text),
+             0;
+    });
   }
 
   static void each(const muster_host* host, uint32_t count, void (*one)(void*, uint32_t), void* work) {

@@ -142,6 +142,8 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   const std::string words = with_names(with_declared(in_one_line(said), *plugin_), *around_.board, *around_.world);
   // What is wrong in a file of the user's is told at its own place, whoever found it.
   const bool is_users = fault == Exit::invalid_input && (!tick || is_early);
+  if (const XmlAttribute* named = is_users ? attribute_of(words, declared_) : nullptr)
+    return Error(fault, named->value_place, words);
   if (is_users && has_place(words)) return Error(fault, as_given(words, *around_.world, around_.search_path));
   return Error(fault, title() + ": " + (is_users ? "" : callback + " failed" + where + ": ") + words);
 }

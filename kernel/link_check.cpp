@@ -1,5 +1,6 @@
 // Checks of a world before it is linked; each refusal names both sides.
 #include <algorithm>
+#include <muster/row_types.hpp>
 #include <set>
 
 #include "claim.hpp"
@@ -248,9 +249,14 @@ void check_phase(const std::string& does, const std::string& logical, const Clai
 }  // namespace
 
 void Linker::check_writers(const std::string& logical, const Claimed& c) const {
-  if (!c.writers.empty() && !c.adders.empty())
-    throw c.adders[0].instance->refused("adds to " + quote(logical) + ", which " + c.writers[0].instance->title() +
-                                        " writes");
+  if (!c.writers.empty() && !c.adders.empty()) {
+    const Instance& writer = *c.writers[0].instance;
+    const std::string type = row_type(c.writers[0].get().columns.text()),
+                      of = '<' + (type.empty() ? "..." : type) + '>';
+    throw writer.refused("writes " + quote(logical) + ", to which " + c.adders[0].instance->title() +
+                         " adds; expected one of the two, or add" + of + "(...) in place of write" + of +
+                         "(...) in the source of " + writer.declared().plugin);
+  }
   for (std::size_t i = 0; i < c.writers.size(); ++i) {
     const auto& one = c.writers[i];
     for (std::size_t j = 0; j < i; ++j) {

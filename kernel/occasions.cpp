@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "claim.hpp"
+#include "parameter_words.hpp"
 #include "simulation.hpp"
 #include "text/doubts.hpp"
 #include "text/names.hpp"
@@ -229,9 +230,8 @@ void Simulation::change(const PluginChange& planned, std::vector<std::unique_ptr
 }
 
 double Simulation::value_of(const RowChange& planned, const ParameterInfo& set) const {
-  if (set.declared->kind == MUSTER_REFERENCE)
-    throw Error(Exit::invalid_input,
-                "parameter " + quote(planned.path) + ": a reference is claimed for good; expected a swap");
+  if (!is_settable(*set.declared))
+    throw Error(Exit::invalid_input, "parameter " + quote(planned.path) + ": it is no number; expected a swap");
   return attribute_values(*set.declared, 1, planned.value, {}, [](const Place&, const std::string&) {}).front();
 }
 

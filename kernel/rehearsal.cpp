@@ -6,9 +6,11 @@
 #include "claim.hpp"
 #include "link.hpp"
 #include "occasions.hpp"
+#include "parameter_words.hpp"
 #include "simulation.hpp"
 #include "text/doubts.hpp"
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 namespace {
@@ -19,14 +21,6 @@ std::string unit_of(const Simulation& run, const Condition& condition) {
   const bool is_link = parts.size() == 5 && parts[0] == "link";
   const auto view = run.table(is_link ? "link/*/" + parts[3] : condition.path.substr(0, condition.path.rfind('/')));
   return view.table->columns()[column_of(*view.table, parts.back())].unit;
-}
-
-// What is to be said of a path that is no parameter, but a number that plugins write; "" where it is none.
-std::string state_fault(const Simulation& run, const std::string& path) {
-  const auto view = run.find_table(path.substr(0, path.rfind('/')));
-  if (!view || view->table->columns().find(path.substr(path.rfind('/') + 1)) < 0) return "";
-  return quote(path) + " is a state, which plugins write, and no parameter; expected a parameter, such as steer/speed" +
-         (path.rfind("robot/", 0) == 0 ? ", or <leave> and a <robot> that joins at another place" : "");
 }
 
 }  // namespace
@@ -160,6 +154,10 @@ void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>
     return;
   }
   for (const Instance* each : there) {  // one that comes later, too
+    if (const std::string fault = fixed_attribute(*each, planned.path); !fault.empty())
+      throw Error(Exit::invalid_input, fault + ", or here " +
+                                           swap_with(each->declared(), planned.path.substr(planned.path.rfind('/') + 1),
+                                                     planned.value.value));
     const auto slash = planned.path.rfind('/');
     const int number = planned.path.substr(0, slash) == each->name() && slash != std::string::npos
                            ? each->find_param(planned.path.substr(slash + 1))
@@ -173,11 +171,6 @@ void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>
       std::any_of(there.begin(), there.end(), [&](const Instance* each) { return each->name() == owner; });
   if (has(owner) && !is_there)
     throw Error(Exit::invalid_input, quote(owner) + " is removed by then, and has no parameters");
-  const auto all = parameters();
-  const bool is_known =
-      std::any_of(all.begin(), all.end(), [&](const ParameterInfo& each) { return each.path == planned.path; });
-  const std::string state = is_known ? "" : state_fault(*this, planned.path);
-  if (!state.empty()) throw Error(Exit::invalid_input, state);
   value_of(planned, parameter(planned.path));
 }
 

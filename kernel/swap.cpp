@@ -1,9 +1,9 @@
 // Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "claim.hpp"
+#include "parameter_words.hpp"
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -189,8 +189,7 @@ std::vector<ParameterInfo> Simulation::parameters() const {
   for (const auto& instance : instances_) {
     for (uint32_t i = 0; i < instance->plugin().param_count; ++i) {
       const auto& param = instance->plugin().params[i];
-      if (param.kind != MUSTER_TEXT && param.kind != MUSTER_FILE && param.kind != MUSTER_REFERENCE)
-        result.push_back({instance->name() + '/' + param.name, &param, instance->params()[i]});
+      if (is_settable(param)) result.push_back({instance->name() + '/' + param.name, &param, instance->params()[i]});
     }
   }
   for (const auto& row : world_.rows) {
@@ -207,74 +206,21 @@ std::vector<ParameterInfo> Simulation::parameters() const {
   return result;
 }
 
-namespace {
-
-std::string owner_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
-
-// True if the help has the word as one of its own.
-bool explains(const std::string& help, const std::string& word) {
-  constexpr std::size_t telling = 4;  // letters
-  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  for (auto at = help.find(word); word.size() >= telling && at != help.npos; at = help.find(word, at + 1)) {
-    const auto end = at + word.size();
-    if ((at == 0 || !is_letter(help[at - 1])) && (end == help.size() || !is_letter(help[end]))) return true;
-  }
-  return false;
-}
-
-// What to say of a path that is no parameter: what it names, if it is short of a name; whose plugin it begins with; and
-// of its owner's parameters the one that is meant, by its name or by its help.
-std::string unknown_parameter(const std::string& path, const std::vector<ParameterInfo>& all,
-                              const std::string& owner_by_plugin) {
-  const std::string what = "there is no parameter " + quote(path) + "; ", owner = owner_of(path);
-  const std::string name = path.substr(path.find('/') == path.npos ? 0 : owner.size() + 1);
-  std::vector<std::string> valid, below, own, meant;
-  for (const auto& info : all) {
-    valid.push_back(info.path);
-    if (info.path.starts_with(path + '/')) below.push_back(info.path);
-    if (owner_of(info.path) != owner) continue;
-    own.push_back(info.path.substr(owner.size() + 1));
-    if (explains(info.declared->help, name)) meant.push_back(own.back());
-  }
-  if (valid.empty()) return what + "this world has none, as no plugin has any or reads its elements";
-  if (!below.empty()) return what + "it has several: " + expected_one_of(below);
-  if (own.empty() && !owner_by_plugin.empty())
-    return what + owner + " is the plugin of " + quote(owner_by_plugin) + "; did you mean " +
-           quote(owner_by_plugin + '/' + name) + "?";
-  if (own.empty()) return what + suggest(path, valid);
-  const std::string near = meant.size() == 1 ? meant[0] : nearest(name, own);
-  for (std::string& each : own) each = owner + '/' + each;
-  return what + expected_one_of(own) + (near.empty() ? "" : "; did you mean " + quote(owner + '/' + near) + "?");
-}
-
-// Of a path that names an attribute which is no number, and stays as it is in a run; "" where it names none.
-std::string fixed_attribute(const std::vector<std::unique_ptr<Instance>>& instances, const std::string& path) {
-  for (const auto& instance : instances) {
-    const int number = instance->name() == owner_of(path) && path.find('/') != path.npos
-                           ? instance->find_param(path.substr(owner_of(path).size() + 1))
-                           : -1;
-    if (number < 0) continue;
-    const auto& param = instance->plugin().params[number];
-    const std::string name = param.name;
-    const std::string what = param.kind == MUSTER_FILE        ? "a file"
-                             : param.kind == MUSTER_REFERENCE ? "the name of a " + std::string(param.text)
-                                                              : "a text";
-    return quote(path) + " is " + what + ", and no parameter: numbers, flags and choices are; expected " + name +
-           "=\"...\" in the world, at " + instance->place().text() + ", or beside this run one with another (muster " +
-           "compare WORLD " + instance->name() + "=" + instance->declared().plugin + ":" + name + "=VALUE)";
-  }
-  return "";
-}
-
-}  // namespace
-
 ParameterInfo Simulation::parameter(const std::string& path) const {
   const auto all = parameters();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& info) { return info.path == path; });
   if (found != all.end()) return *found;
-  if (const std::string fault = fixed_attribute(instances_, path); !fault.empty())
-    throw Error(Exit::invalid_input, fault);
-  throw Error(Exit::invalid_input, unknown_parameter(path, all, whose_plugin(world_.instances, owner_of(path))));
+  for (const auto& instance : instances_) {
+    if (const std::string fault = fixed_attribute(*instance, path); !fault.empty())
+      throw Error(Exit::invalid_input, fault + ", or beside this run one with another (muster compare WORLD " +
+                                           instance->name() + "=" + instance->declared().plugin + ":" +
+                                           path.substr(path.rfind('/') + 1) + "=VALUE)");
+  }
+  for (const std::string& fault : {fixed_attribute_of_row(world_, standard_, path), state_fault(*this, path)}) {
+    if (!fault.empty()) throw Error(Exit::invalid_input, fault);
+  }
+  throw Error(Exit::invalid_input,
+              unknown_parameter(path, all, whose_plugin(world_.instances, path.substr(0, path.rfind('/')))));
 }
 
 namespace {
@@ -283,8 +229,6 @@ void check_value(const std::string& path, const muster_param& declared, double v
   const auto refuse = [&](const std::string& what) {
     throw Error(Exit::invalid_input, "parameter " + quote(path) + ": " + what);
   };
-  if (declared.kind == MUSTER_REFERENCE) refuse("a reference is claimed for good; expected a swap");
-  if (declared.kind == MUSTER_TEXT || declared.kind == MUSTER_FILE) refuse("it is no number; expected a swap");
   const double most = declared.kind == MUSTER_CHOICE ? static_cast<double>(choices(declared).size()) - 1 : declared.max;
   if (!(value >= declared.min && value <= most))
     refuse(print_real(value) + " is out of bounds; expected " + expectation(declared));
@@ -300,7 +244,7 @@ void Simulation::set_parameter(const std::string& path, double value) {
   const std::string name = slash == std::string::npos ? "" : path.substr(slash + 1);
   for (const auto& instance : instances_) {
     const int found = instance->name() == owner ? instance->find_param(name) : -1;
-    if (found >= 0) {
+    if (found >= 0 && is_settable(instance->plugin().params[found])) {
       check_value(path, instance->plugin().params[found], value);
       instance->params()[static_cast<std::size_t>(found)] = value;
       return;

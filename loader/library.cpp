@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -170,6 +172,33 @@ std::vector<std::filesystem::path> libraries_in(const std::filesystem::path& fol
   return result;
 }
 
+// True if the file has the text of an id, such as "radio.slope/1", as one of its own.
+bool holds_id(const std::filesystem::path& file, const std::string& id) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string begin = std::string(1, '\0') + id + '/';
+  for (auto at = bytes.find(begin); at != bytes.npos; at = bytes.find(begin, at + 1)) {
+    const auto digits = at + begin.size();
+    const auto end = bytes.find_first_not_of("0123456789", digits);
+    if (end != bytes.npos && end > digits && bytes[end] == '\0') return true;
+  }
+  return false;
+}
+
+// `; build/plugins/radio_one_slope.so has the id radio.slope`: the file is named otherwise than the plugin in it.
+std::string under_another_name(const std::string& id, const Library::SearchPath& search_path) {
+  for (const std::filesystem::path& folder : search_path) {
+    for (const std::filesystem::path& file : libraries_in(folder)) {
+      if (!holds_id(file, id)) continue;
+      return fmt::format(
+          "; {} has the id {}, and a plugin's file is named after it: expected {}, by muster_plugin({} ...) "
+          "in its CMakeLists.txt",
+          file.string(), id, file_name(id), std::filesystem::path(file_name(id)).stem().string());
+    }
+  }
+  return "";
+}
+
 std::string not_found(const std::string& id, const Library::SearchPath& search_path) {
   std::vector<std::string> folders, ids;
   for (const std::filesystem::path& folder : search_path) {
@@ -183,10 +212,11 @@ std::string not_found(const std::string& id, const Library::SearchPath& search_p
     const std::string own = id.substr(kind.size());
     return nearest(own, {each.substr(kind.size())}).empty() && synonym(own, {each}).empty();
   });
+  const std::string other = under_another_name(id, search_path);
   return fmt::format(
       "{} not found; looked in {}{}", file_name(id),
       folders.empty() ? "no folder: the plugin path is empty" : fmt::format("{}", fmt::join(folders, ", ")),
-      did_you_mean(id, ids));
+      other.empty() ? did_you_mean(id, ids) : other);
 }
 
 std::filesystem::path find(const std::string& id, const Library::SearchPath& search_path) {

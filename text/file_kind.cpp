@@ -32,6 +32,18 @@ std::string file_kind(std::string_view bytes) {
   if (bytes.starts_with("SQLite format 3")) return "a bag of ROS 2 in SQLite";
   if (bytes.starts_with("#ROSBAG V")) return "a bag of ROS 1";
   if (bytes.starts_with("\x1F\x8B")) return "compressed by gzip";
+  if (bytes.starts_with("\x28\xB5\x2F\xFD")) return "compressed by zstd";
+  if (bytes.starts_with("\xFD"
+                        "7zXZ"))
+    return "compressed by xz";
+  if (bytes.starts_with("BZh")) return "compressed by bzip2";
+  if (bytes.starts_with("\x89HDF")) return "an HDF5 file";
+  if (bytes.starts_with("\x89PNG") || bytes.starts_with("\xFF\xD8\xFF")) return "a picture";
+  if (bytes.starts_with("%PDF")) return "a PDF document";
+  if (bytes.starts_with("\x7F"
+                        "ELF"))
+    return "a program or a library";
+  if (bytes.starts_with("PAR1")) return "a Parquet file";
   if (bytes.starts_with("muster.snapshot.")) return "a snapshot of muster";
   if (is_dxf(bytes)) return "a DXF drawing";
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");

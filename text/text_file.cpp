@@ -140,8 +140,11 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw invalid(place, "is UTF-16; expected UTF-8");
   if (text.starts_with("\x1F\x8B")) throw invalid(place, "is compressed by gzip; expected plain text");
   if (const std::string kind = file_kind(text.substr(0, 256));
-      kind == "an MCAP file" || kind == "a bag of ROS 2 in SQLite" || kind == "a bag of ROS 1")
-    throw invalid(place, "is " + kind + "; expected plain text");
+      !kind.empty() && kind != "XML" && kind != "JSON" && kind != "a DXF drawing" && kind != "a snapshot of muster")
+    throw invalid(place, "is " + kind + "; expected plain text" +
+                             (kind == "compressed by zstd"
+                                  ? ", or of a bundle of muster: muster bundle check " + path.filename().string()
+                                  : ""));
   if (text.starts_with("PK\x03"))
     throw invalid(place, "is a ZIP archive, as .xlsx and .ods are; expected plain text, such as CSV in UTF-8");
   std::size_t skipped = 0;

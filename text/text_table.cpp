@@ -191,10 +191,36 @@ TextColumn TextTable::read_label(std::size_t column) const {
            open + 2 < label.size();
     result.unit = label.substr(open + 1, label.size() - std::min(label.size(), open + 2));
   }
+  if (label.empty()) throw invalid(header_place(column), nameless(column));
   if (!good)
     throw invalid(header_place(column),
                   quote(label) + " is not a column; expected name or name[unit], without spaces around it");
   return result;
+}
+
+// An empty name of a column: an index, a comma too much, or one at the end of the line as programs export it.
+std::string TextTable::nameless(std::size_t column) const {
+  if (column + 1 == width_ && width_ > 1)
+    return "the header ends in a comma, so that a last column has no name; expected no comma there, nor at the end of "
+           "the rows: sed 's/,\\r*$//' FILE takes them away";
+  if (column == 0)
+    return "the header begins with a comma, so that the first column has no name, as the index that pandas writes; "
+           "expected to_csv(..., index=False): cut -d, -f2- FILE takes it away";
+  return "two commas stand side by side in the header, so that column " + std::to_string(column + 1) +
+         " has no name; expected name or name[unit]";
+}
+
+// The header with the units that the first row holds, "t[s],tx,rx_x[m]", as MATLAB and LabVIEW write them; "" where
+// that row is another.
+std::string TextTable::header_with_units(std::size_t column, std::string_view unit) const {
+  if (rows() == 0 || read_otherwise_.count(column) || text(0, column) != unit) return "";
+  std::string header;
+  for (std::size_t c = 0; c < width_; ++c) {
+    const std::string below = text(0, c);
+    if (parse_real(below) || !columns_[c].unit.empty()) return "";
+    header += (c ? "," : "") + TextColumn{columns_[c].name, below == "-" ? "" : below}.label();
+  }
+  return header;
 }
 
 std::optional<std::size_t> TextTable::find(std::string_view name) const {
@@ -218,6 +244,14 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
                                        (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }
   if (columns_[*found].unit == unit) return *found;
+  if (columns_[*found].unit.empty()) {
+    const std::string header = header_with_units(*found, unit);
+    throw invalid(header_place(*found),
+                  "column " + quote(wanted.name) + " has no unit" +
+                      (header.empty() ? "; expected " + quote(wanted.label())
+                                      : ", and line 2 holds units; expected them in the header, " + header +
+                                            ", and no line of units"));
+  }
   throw invalid(header_place(*found), "column " + quote(columns_[*found].label()) + " has the wrong unit; expected " +
                                           quote(wanted.label()) + conversion(columns_[*found].unit, wanted.unit));
 }
@@ -260,6 +294,8 @@ std::vector<double> TextTable::reals(std::size_t column, Allow allow) const {
       values.push_back(std::numeric_limits<double>::quiet_NaN());
     } else if (allow.infinite && (cell == "inf" || cell == "-inf")) {
       values.push_back(cell == "inf" ? infinity : -infinity);
+    } else if (row == 0 && !cell.empty() && cell == columns_[column].unit) {
+      throw invalid(place(row, 0), "the line holds units, which the header has; expected rows of numbers below it");
     } else if (cell_text(cell) == columns_[column].label()) {
       throw invalid(place(row, 0), "the line repeats the header, as in two tables joined; expected one header");
     } else {

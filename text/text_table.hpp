@@ -76,6 +76,8 @@ class TextTable {
   std::size_t cell_end(std::size_t cell) const;
   void read_header();
   TextColumn read_label(std::size_t column) const;
+  std::string nameless(std::size_t column) const;
+  std::string header_with_units(std::size_t column, std::string_view unit) const;
   [[noreturn]] void fail_ragged(std::size_t found) const;
 
   // Line 0 is the header.

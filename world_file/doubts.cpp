@@ -4,7 +4,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "below_ground.hpp"
+#include "door_overlaps.hpp"
 #include "params.hpp"
+#include "stored_cells.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -28,13 +31,8 @@ std::vector<Shape> walls_of(const World& world) {
   for (const auto& row : world.rows) {
     if (row.set != "wall") continue;
     Shape shape{&row, {}};
-    for (const auto& values : row.values) {
-      if (values.table != "wall/shape") continue;
-      if (values.store)
-        values.store(values.values.data(), shape.cells);
-      else
-        std::copy_n(values.values.begin(), std::min(values.values.size(), shape_width), shape.cells);
-    }
+    const auto cells = stored_cells(row, "wall/shape", shape_width);
+    std::copy(cells.begin(), cells.end(), shape.cells);
     result.push_back(shape);
   }
   return result;
@@ -54,7 +52,13 @@ class Doubts {
   void look() {
     look_at_tick();
     look_at_spans();
+    refuse_overlapping_doors(root_, world_);
+    look_below_ground(root_, world_);
     for (const auto& child : root_.children) {
+      for (const auto& inside : child.children) {  // of <at>: what joins later
+        if (inside.name == "station") look_at_station(inside);
+        if (inside.name == "robot") look_at_antenna(inside);
+      }
       if (child.name == "door") look_at_door(child);
       if (child.name == "station") look_at_station(child);
       if (child.name == "robot") look_at_antenna(child);

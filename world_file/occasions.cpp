@@ -27,7 +27,8 @@ bool is_swaps_own(const XmlAttribute& given) {
 
 // The new plugin, as attributes of <swap> or as an element inside.
 PluginChange read_swap(const XmlElement& element) {
-  const std::string& instance = needed(element, "instance", "the name of an instance").value;
+  const XmlAttribute& named = needed(element, "instance", "the name of an instance");
+  const std::string& instance = named.value;
   const XmlElement* inside = element.children.size() == 1 ? &element.children[0] : nullptr;
   const XmlElement& given = inside ? *inside : element;
   if (const auto* name = given.attribute("name"))
@@ -37,14 +38,14 @@ PluginChange read_swap(const XmlElement& element) {
     for (const auto& a : element.attributes) {
       if (a.name != "at" && a.name != "instance") refuse_unknown(a, element.name, {"at", "instance"});
     }
-    return {PluginChange::Kind::swap, instance, read_instance(*inside, inside->name), inside->place};
+    return {PluginChange::Kind::swap, instance, read_instance(*inside, inside->name), inside->place, named.value_place};
   }
   XmlElement rest = element;
   std::erase_if(rest.attributes, is_swaps_own);
   InstanceDeclaration replacement =
       read_instance(rest, needed(element, "plugin", "the new plugin's id, or the plugin as an element inside").value);
   replacement.shares_element = true;
-  return {PluginChange::Kind::swap, instance, std::move(replacement), element.place};
+  return {PluginChange::Kind::swap, instance, std::move(replacement), element.place, named.value_place};
 }
 
 Condition read_condition(const XmlAttribute& given) {
@@ -130,7 +131,8 @@ void read_at(const XmlElement& element, const Standard& standard, World& world) 
     } else if (child.name == "remove") {
       expect_attributes(child, {"instance"});
       const XmlAttribute& instance = needed(child, "instance", "the name of an instance");
-      occasion.plugins.push_back({PluginChange::Kind::remove, instance.value, {}, instance.value_place});
+      occasion.plugins.push_back(
+          {PluginChange::Kind::remove, instance.value, {}, instance.value_place, instance.value_place});
     } else if (child.name.find('.') != std::string::npos) {
       InstanceDeclaration made = read_instance(child, child.name);
       const std::string name = made.name;
@@ -170,9 +172,12 @@ void check_occasions(const World& world) {
   for (const auto& [name, place] : first) valid.push_back(name);
   for (const auto& occasion : world.occasions) {
     for (const auto& change : occasion.plugins) {
-      if (!first.count(change.instance))
-        throw invalid(change.place,
-                      "no instance is called " + quote(change.instance) + "; " + suggest(change.instance, valid));
+      if (first.count(change.instance)) continue;
+      const std::string owner = whose_plugin(world.instances, change.instance);
+      throw invalid(change.instance_place, "no instance is called " + quote(change.instance) +
+                                               (owner.empty() ? "; " + suggest(change.instance, valid)
+                                                              : ", which is the plugin of " + quote(owner) +
+                                                                    "; expected instance=\"" + owner + '"'));
     }
   }
 }

@@ -9,6 +9,7 @@
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/synonyms.hpp"
+#include "text/unit_words.hpp"
 
 namespace muster {
 namespace {
@@ -101,8 +102,8 @@ uint64_t positive_integer(const XmlAttribute& given) {
 double real_of(const XmlAttribute& given, double least, const char* expected) {
   const auto value = parse_real(given.value);
   if (!value)
-    throw invalid(given.value_place,
-                  "attribute " + quote(given.name) + ": " + why_not_real(given.value) + "; expected " + expected);
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + why_not_real(given.value) +
+                                         "; expected " + expected + other_unit_hint("s", given.value));
   if (!(*value >= least))
     throw invalid(given.value_place,
                   "attribute " + quote(given.name) + ": " + given.value + " is out of bounds; expected " + expected);
@@ -155,7 +156,7 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
       const auto values = parse_reals(given.value, n);
       if (!values || (count == 1 && !parse_real(given.value)))
         refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n),
-               power_hint(declared.unit, given.value) + corners_hint(declared, n, given.value));
+               other_unit_hint(declared.unit, given.value) + corners_hint(declared, n, given.value));
       for (const double value : *values) check_bounds(declared, count, given, value, warn);
       return *values;
     }

@@ -34,7 +34,7 @@ void check_name(const XmlAttribute& given);
 const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected);
 // An integer from 1. Throws Error.
 uint64_t positive_integer(const XmlAttribute& given);
-// Its number, at least `least`. Throws Error.
+// Its number of seconds, at least `least`. Throws Error.
 double real_of(const XmlAttribute& given, double least, const char* expected);
 
 // The words of a choice, "a|b|c".

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "params.hpp"
@@ -83,7 +84,7 @@ class RowReader {
     if (!given.children.empty()) refuse_inside(given);
   }
 
-  void add_row(const Element& element, const std::string& name, const Place& place) {
+  void add_row(const Element& element, const std::string& name, const Place& place, const Place& of_name) {
     RowDeclaration row{element.set, name, {element.set}, element.own_row, place, {}};
     for (const auto& attribute : element.attributes) {
       const std::string table = attribute.table;
@@ -92,16 +93,25 @@ class RowReader {
     }
     for (const auto& set : row.sets) {
       const auto [first, is_new] = places_.emplace(set + '/' + name, place);
-      if (!is_new) {
-        throw invalid(place,
-                      "a second " + set + " is called " + quote(name) + "; the first is at " + first->second.text());
-      }
+      if (!is_new) refuse_second(element, set, name, place, of_name, first->second);
       numbers_[set + '/' + name] = static_cast<double>(names_[set].size());
       names_[set].push_back(name);
       rows_[set].push_back(world_.rows.size());
     }
     world_.rows.push_back(std::move(row));
     elements_.push_back(&element);
+  }
+
+  // Two elements of one kind, or of two kinds that add a row to one set: a robot and a station each have a radio.
+  [[noreturn]] void refuse_second(const Element& element, const std::string& set, const std::string& name,
+                                  const Place& place, const Place& at, const Place& first) const {
+    const std::size_t row = rows_.at(set)[static_cast<std::size_t>(numbers_.at(set + '/' + name))];
+    const std::string other = elements_[row]->name;
+    if (other == element.name)
+      throw invalid(place, "a second " + set + " is called " + quote(name) + "; the first is at " + first.text());
+    throw invalid(at, std::string(element.name) + ' ' + quote(name) + " has the name of " + other + ' ' + quote(name) +
+                          " at " + first.text() + ", and each is a " + set +
+                          " by its name; expected another name for " + "one of them");
   }
 
   // Checks that attributes fit each other, such as a wall's length above 0.
@@ -155,11 +165,12 @@ class RowReader {
 
   void declare(const Element& element, const XmlElement& given) {
     std::string name = std::string(element.set) + std::to_string(names_[element.set].size() + 1);
-    if (const auto* found = given.attribute("name")) {
+    const XmlAttribute* found = given.attribute("name");
+    if (found) {
       check_name(*found);
       name = found->value;
     }
-    add_row(element, name, given.place);
+    add_row(element, name, given.place, found ? found->value_place : given.place);
     pending_.push_back({&given, &element, world_.rows.size() - 1});
   }
 
@@ -190,6 +201,7 @@ class RowReader {
         if (found)  // for messages about what it names
           world_.texts[row.set + '/' + row.name + "/place/" + attribute.param.name] = found->value_place.text();
       } else if (found) {
+        refuse_pose(element, attribute, *found);
         row.values.push_back({attribute.table, attribute.store,
                               attribute_values(attribute.param, attribute.count, *found, finder(), warner()),
                               &attribute});
@@ -199,6 +211,27 @@ class RowReader {
                               &attribute});
       }
     }
+  }
+
+  // A place with a heading behind it: x y z yaw, SDF's x y z roll pitch yaw, or x y z and a quaternion of ROS.
+  static void refuse_pose(const Element& element, const Attribute& attribute, const XmlAttribute& given) {
+    const auto turns = std::find_if(element.attributes.begin(), element.attributes.end(), [](const Attribute& each) {
+      return each.count == 1 && std::string(each.param.unit) == "rad";
+    });
+    if (attribute.count != 3 || given.name != "at" || turns == element.attributes.end()) return;
+    std::optional<std::vector<double>> pose;
+    for (const std::size_t count : {4, 6, 7})
+      if (!pose) pose = parse_reals(given.value, count);
+    if (!pose) return;
+    const std::vector<double>& p = *pose;
+    double yaw = p.back();
+    if (p.size() == 7) yaw = std::atan2(2 * (p[6] * p[5] + p[3] * p[4]), 1 - 2 * (p[4] * p[4] + p[5] * p[5]));
+    const char* order = p.size() == 4 ? "x y z yaw" : p.size() == 6 ? "x y z roll pitch yaw" : "x y z qx qy qz qw";
+    throw invalid(given.value_place,
+                  "attribute \"at\": " + quote(given.value) + " has " + std::to_string(p.size()) + " numbers (" +
+                      order + "?); expected three, x y z in m, and the heading as an attribute of its own: at=\"" +
+                      print_real(p[0]) + ' ' + print_real(p[1]) + ' ' + print_real(p[2]) + "\" " + turns->param.name +
+                      "=\"" + print_real(rounded(yaw)) + '"');
   }
 
   void add_file(const XmlElement& given, const Element& element) {
@@ -216,7 +249,7 @@ class RowReader {
       const auto place = table.place(r, table.require("name", ""));
       const std::string& name = names.levels[names.level[r]];
       check_name({"name", name, place, place});
-      add_row(one, name, place);
+      add_row(one, name, place, place);
     }
   }
 

@@ -63,6 +63,7 @@ struct PluginChange {
   std::string instance;
   InstanceDeclaration plugin;  // the new one
   Place place{};
+  Place instance_place{};  // of the attribute that names the instance
 };
 
 // A number that is set by its path, or rows that join or leave.

@@ -15,7 +15,7 @@ namespace muster::diagnosis {
 namespace {
 
 struct PlanBox {
-  double x0 = 1e300, y0 = 1e300, x1 = -1e300, y1 = -1e300, top = -1e300;
+  double x0 = 1e300, y0 = 1e300, x1 = -1e300, y1 = -1e300, top = -1e300, foot = 1e300;
 
   void add(double x, double y) {
     x0 = std::min(x0, x), x1 = std::max(x1, x);
@@ -35,6 +35,7 @@ PlanBox plan_of(const LinkModel& model) {
     const Wall& w = reinterpret_cast<const Wall*>(table->now().data.data())[i];
     plan.add(w.x0, w.y0), plan.add(w.x1, w.y1);
     plan.top = std::max(plan.top, w.base + w.height);
+    plan.foot = std::min(plan.foot, w.base);
   }
   return plan;
 }
@@ -96,10 +97,18 @@ std::string place_doubt(const std::string& name, const RadioTrack& track, const 
   return "";
 }
 
-// A height in metres that the walls have only as millimetres.
+// A height in metres that the walls have only as millimetres, or all of them below the feet of the walls.
 std::string height_doubt(const std::string& name, const RadioTrack& track, const PlanBox& plan) {
-  double low = 1e300;
-  for (const Point& p : track.places) low = std::min(low, std::isnan(p[2]) ? -1e300 : p[2]);
+  double low = 1e300, high = -1e300;
+  for (const Point& p : track.places) {
+    low = std::min(low, std::isnan(p[2]) ? -1e300 : p[2]);
+    high = std::max(high, std::isnan(p[2]) ? 1e300 : p[2]);
+  }
+  if (high < 0 && high < plan.foot && plan.top > 0)
+    return fmt::format(
+        "{} is {:.4g} m or more below the ground (z = 0), throughout; is z down in the data, as in PX4 (NED)? expected "
+        "metres up (a map of muster import: rx_z[m] = -1*COLUMN)",
+        quote(name), -high);
   if (!(low > plan.top + thresholds::height_above) || low / 1000 > plan.top) return "";
   return fmt::format(
       "{} stands {:.4g} m high, and the walls end at {:.3g} m; are these millimetres? expected metres (a map of muster "

@@ -1,6 +1,7 @@
 #include "diagnosis/data/foreign_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "text/file_kind.hpp"
 #include "text/names.hpp"
@@ -45,6 +46,7 @@ void refuse_control_characters(std::string_view line, const Place& place) {
 std::string why_no_column(const std::string& rule) {
   if (rule.find_first_of("/()*") != rule.npos)
     return ", and it is no rule; expected SCALE*COLUMN + OFFSET, such as 0.001*ms + 0.5";
+  if (rule.size() > 1 && rule[0] == '-') return ", and it is no rule; expected -1*" + rule.substr(1);
   if (rule.empty() || rule.find_first_of("0123456789") > 1) return "";
   std::string point = rule;
   std::replace(point.begin(), point.end(), ',', '.');
@@ -63,6 +65,34 @@ std::string division(const std::string& rule, const std::vector<std::string>& co
   if (!divisor || *divisor == 0 || std::find(columns.begin(), columns.end(), column) == columns.end()) return "";
   return quote(rule) + ": a rule has no division; expected " + print_real(1 / *divisor) + "*" + column +
          " (SCALE*COLUMN + OFFSET)";
+}
+
+// What is wrong with a rule that calls a function of a column, as deg2rad(heading), and how it is written here; "" of
+// any other.
+std::string function_call(const std::string& rule, const std::vector<std::string>& columns) {
+  struct Known {
+    std::string_view name, words;
+    double factor;
+  };
+  static constexpr double degree = 0.017453292519943295;
+  static constexpr Known known[] = {
+      {"deg2rad", "degrees in rad", degree},      {"radians", "degrees in rad", degree},
+      {"toRadians", "degrees in rad", degree},    {"to_radians", "degrees in rad", degree},
+      {"rad2deg", "rad in degrees", 1 / degree},  {"degrees", "rad in degrees", 1 / degree},
+      {"toDegrees", "rad in degrees", 1 / degree}};
+  const std::size_t open = rule.find('(');
+  if (open == rule.npos || open == 0 || rule.back() != ')') return "";
+  std::string name(trimmed(rule.substr(0, open)));
+  const std::string column(trimmed(rule.substr(open + 1, rule.size() - open - 2)));
+  name = name.substr(name.rfind('.') == name.npos ? 0 : name.rfind('.') + 1);  // np.deg2rad, math.radians
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  if (!std::all_of(name.begin(), name.end(), is_letter)) return "";
+  const std::string what = "there is no function " + name;
+  for (const Known& one : known)
+    if (name == one.name)
+      return what + "; expected " + print_real(one.factor) + "*" + column + ", which makes " + std::string(one.words);
+  return what + ", only log10; expected SCALE*COLUMN + OFFSET or SCALE*log10(COLUMN) + OFFSET, such as 0.001*" +
+         (std::find(columns.begin(), columns.end(), column) == columns.end() ? columns.front() : column);
 }
 
 std::string name_of(char separator) {
@@ -255,7 +285,8 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end()) {
     if (const std::size_t number = number_in(column); number > 0 && number <= columns_.size()) return number - 1;
-    if (const std::string fault = division(column, columns_); !fault.empty()) throw invalid(for_whom, fault);
+    for (const std::string& fault : {division(column, columns_), function_call(column, columns_)})
+      if (!fault.empty()) throw invalid(for_whom, fault);
     throw invalid(for_whom,
                   file_ + " has no column " + quote(column) + why_no_column(column) + "; " + suggest(column, columns_));
   }
@@ -269,12 +300,30 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
 
 bool ForeignTable::is_nothing(std::size_t row, std::size_t column) const { return means_nothing(text(row, column)); }
 
+// True where the first row has names of units, at least two of them, and otherwise nothing.
+bool ForeignTable::is_line_of_units() const {
+  static constexpr std::string_view units[] = {"s",   "ms", "us", "ns", "m",   "cm",  "mm",  "km",    "rad", "deg",
+                                               "dBm", "dB", "mW", "Hz", "m/s", "MHz", "GHz", "rad/s", "-",   "none"};
+  std::size_t found = 0;
+  for (std::size_t column = 0; column < columns_.size(); ++column) {
+    std::string cell(text(0, column));
+    if (cell.size() > 2 && (cell.front() == '[' || cell.front() == '(')) cell = cell.substr(1, cell.size() - 2);
+    if (cell.empty()) continue;
+    if (std::find(std::begin(units), std::end(units), cell) == std::end(units)) return false;
+    ++found;
+  }
+  return found >= 2;
+}
+
 std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, const std::string& advice) const {
   std::string cell(text(row, column));
   if (shape_.decimal_comma && cell.find('.') == cell.npos) std::replace(cell.begin(), cell.end(), ',', '.');
   if (cell.size() > 1 && cell[0] == '+') cell.erase(0, 1);  // as loggers print it
   if (const auto value = parse_real(cell)) return value;
   if (means_nothing(cell)) return std::nullopt;
+  if (row == 0 && is_line_of_units())
+    throw invalid(place(row), "the line holds units and no reading; expected it away: sed '" +
+                                  std::to_string(place(row).line) + "d' FILE, and the units in the rules of the map");
   throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell) + advice);
 }
 

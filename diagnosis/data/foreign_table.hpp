@@ -42,6 +42,7 @@ class ForeignTable {
   // Empty for a cell that is empty, nan, NA, n/a, null or none. `advice` ends the error message for a cell that is no
   // number.
   std::optional<double> number(std::size_t row, std::size_t column, const std::string& advice = "") const;
+  bool is_line_of_units() const;
   bool is_nothing(std::size_t row, std::size_t column) const;
   Place place(std::size_t row) const { return {file_, lines_[row], 0}; }
 

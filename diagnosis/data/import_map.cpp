@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "text/names.hpp"
@@ -29,6 +30,30 @@ double number_of(const std::string& text, const Place& place) {
   return *value;
 }
 
+// A number, pi, or a number through another; none of any other text.
+std::optional<double> constant(const std::string& text) {
+  constexpr double pi = 3.141592653589793;
+  if (text == "pi" || text == "M_PI" || text == "math.pi" || text == "np.pi") return pi;
+  const std::size_t slash = text.find('/');
+  if (slash == text.npos) return parse_real(text);
+  const auto over = constant(trimmed(text.substr(0, slash))), under = constant(trimmed(text.substr(slash + 1)));
+  return over && under && *under != 0 ? std::optional(*over / *under) : std::nullopt;
+}
+
+// SCALE*COLUMN, the factor a plain number and first.
+double scale_of(const std::string& text, std::size_t star, const Place& place) {
+  const std::string first = trimmed(text.substr(0, star)), second = trimmed(text.substr(star + 1));
+  if (const auto value = parse_real(first)) return *value;
+  const auto expected = [&](double factor, const std::string& column) {
+    return invalid(place, quote(text) +
+                              ": a rule is SCALE*COLUMN + OFFSET, with numbers for SCALE and OFFSET; expected " +
+                              print_real(factor) + "*" + column);
+  };
+  if (const auto factor = constant(first)) throw expected(*factor, second);
+  if (const auto factor = constant(second)) throw expected(*factor, first);
+  throw invalid(place, why_not_real(first) + "; expected SCALE*COLUMN + OFFSET, such as 0.001*ms + 0.5");
+}
+
 ColumnReference column_reference(const std::string& text) {
   const std::size_t dot = text.find('.');
   return dot == text.npos ? ColumnReference{"", text} : ColumnReference{text.substr(0, dot), text.substr(dot + 1)};
@@ -48,7 +73,7 @@ NumberRule number_rule(std::string text, const Place& place) {
     break;
   }
   if (const std::size_t star = text.find('*'); star != text.npos) {
-    rule.scale = number_of(trimmed(text.substr(0, star)), place);
+    rule.scale = scale_of(text, star, place);
     text = trimmed(text.substr(star + 1));
   }
   if (text.rfind("log10(", 0) == 0 && text.back() == ')') {

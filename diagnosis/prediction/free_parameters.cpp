@@ -4,6 +4,7 @@
 
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/params.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -30,10 +31,23 @@ std::vector<std::string> held_paths(MeasuredWorld& model, const std::vector<std:
   return paths;
 }
 
-void refuse_unfit(const ParameterInfo& info) {
-  if (info.declared->kind == MUSTER_REAL && info.declared->max > info.declared->min) return;
-  throw Error(Exit::invalid_input,
-              "--free " + info.path + ": it is not a real number with bounds; expected one that is");
+bool may_be_fitted(const ParameterInfo& info) {
+  return info.declared->kind == MUSTER_REAL && info.declared->max > info.declared->min;
+}
+
+void refuse_unfit(const ParameterInfo& info, const MeasuredWorld& model) {
+  if (may_be_fitted(info)) return;
+  const uint32_t kind = info.declared->kind;
+  const std::string what = kind == MUSTER_CHOICE    ? "a choice of " + expectation(*info.declared).substr(7)
+                           : kind == MUSTER_FLAG    ? "a flag, true or false"
+                           : kind == MUSTER_INTEGER ? "an integer"
+                                                    : "a number with one value alone";
+  std::vector<std::string> valid;
+  for (const ParameterInfo& each : model.parameters())
+    if (may_be_fitted(each) && (each.declared->flags & MUSTER_FREE)) valid.push_back(each.path);
+  throw Error(Exit::invalid_input, "--free " + info.path + ": it is " + what + ", which no fit moves; " +
+                                       (valid.empty() ? "expected a real number" : expected_one_of(valid)) +
+                                       " (--fix " + info.path + "=VALUE holds it)");
 }
 
 }  // namespace
@@ -41,7 +55,7 @@ void refuse_unfit(const ParameterInfo& info) {
 std::vector<FitParameter> free_parameters(MeasuredWorld& model, const FitOptions& options) {
   const std::vector<std::string> held = held_paths(model, options.fix);
   for (const std::string& path : options.free) {
-    refuse_unfit(model.parameter(path));
+    refuse_unfit(model.parameter(path), model);
     if (contains(held, path))
       throw Error(Exit::invalid_input, quote(path) + " is both free and fixed; expected one of them");
   }

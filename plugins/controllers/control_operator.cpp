@@ -26,7 +26,7 @@ std::vector<Order> read_orders(const Setup& setup) {
     const auto* to = each.attribute("to");
     if (to && radio_row(setup, to->value, to->value_place) == setup.param("radio"))
       refuse(to->value_place, "attribute \"to\": " + quote(to->value) + " speaks to itself; expected another radio");
-    Order order{number(needed(each, "at", "a time in seconds"), 0, 1e9),
+    Order order{number(needed(each, "at", "a time in seconds"), 0, 1e9, "s"),
                 to ? radio_row(setup, to->value, to->value_place) : -1, number(each, "again", 0, 1e-3, 1e9),
                 number(each, "tries", 1e9, 1, 1e9), needed(each, "text", "what is said").value};
     if (order.again > 0 && order.to < 0)

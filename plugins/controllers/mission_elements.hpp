@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "plugins/world_folder.hpp"
+#include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/unit_words.hpp"
 #include "text/xml.hpp"
 
 namespace muster::missions {
@@ -33,12 +35,14 @@ inline const XmlAttribute& needed(const XmlElement& element, const char* name, c
          "<" + element.name + "> has no attribute " + quote(name) + ", which it needs; expected " + expected);
 }
 
-inline double number(const XmlAttribute& given, double least, double most) {
+inline double number(const XmlAttribute& given, double least, double most, const std::string& unit = "") {
   const auto value = parse_real(given.value);
   if (!value || !(*value >= least && *value <= most))
     refuse(given.value_place, "attribute " + quote(given.name) + ": " +
                                   (value ? given.value + " is out of bounds" : why_not_real(given.value)) +
-                                  "; expected a number from " + print_real(least) + " to " + print_real(most));
+                                  "; expected a number from " + print_real(least) + " to " + print_real(most) +
+                                  (unit.empty() ? "" : ' ' + unit) +
+                                  (value ? unit_hint(unit, *value, least, most) : other_unit_hint(unit, given.value)));
   return *value;
 }
 

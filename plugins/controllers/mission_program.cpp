@@ -89,7 +89,7 @@ class Compiler {
     made.x = (*place)[0], made.y = (*place)[1], made.z = place->size() > 2 ? (*place)[2] : null();
     made.heading = null();
     if (const XmlAttribute* heading = element.attribute("heading")) {
-      made.heading = number(*heading, -1000, 1000);
+      made.heading = number(*heading, -1000, 1000, "rad");
       if (const std::string doubt = angle_doubt(made.heading); !doubt.empty())
         program_.doubts.push_back(heading->value_place.text() + ": attribute \"heading\": " + doubt);
     }
@@ -104,7 +104,7 @@ class Compiler {
     if (seconds && (element.attribute("message") || element.attribute("patience")))
       refuse(element.place, "<wait> has seconds=\"...\" and more; expected seconds=\"...\" alone, or message=\"...\"");
     if (seconds) {
-      add(Act::wait, element).number = number(*seconds, 0, long_time);
+      add(Act::wait, element).number = number(*seconds, 0, long_time, "s");
       return;
     }
     const std::string message = needed(element, "message", "seconds=\"...\", or the text of a message").value;
@@ -143,7 +143,7 @@ class Compiler {
       refuse(element.place, "the link to " + quote(to.value) + " is kept already, by an element around this one");
     Instruction& made = add(Act::keep, element);
     made.slot = slot;
-    made.number = number(needed(element, "above", "a level in dBm, such as -60"), -200, 50);
+    made.number = number(needed(element, "above", "a level in dBm, such as -60"), -200, 50, "dBm");
     made.margin = number(element, "margin", 3, 0, 100);
     made.lost = number(element, "lost", 5, 1e-3, long_time);
     kept_.push_back(slot);
@@ -221,7 +221,7 @@ class Compiler {
     Instruction& made = add(Act::test_link, element);
     made.slot = link(other(to), to);
     made.below = below;
-    made.number = number(below ? *below : *above, -200, 50);
+    made.number = number(below ? *below : *above, -200, 50, "dBm");
   }
 
   void handler(const XmlElement& element) {

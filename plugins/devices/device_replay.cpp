@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <muster/names.hpp>
 #include <muster/plugin.hpp>
-#include <sstream>
 
 #include "device_ports.hpp"
 #include "recording.hpp"
@@ -72,8 +72,7 @@ std::string text_of(const muster_host* host, const char* path) {
 
 devices::Topics topics_of(const muster_host* host) {
   devices::Topics result;
-  std::istringstream words(text_of(host, "topics"));
-  for (std::string word; words >> word;) {
+  for (const std::string& word : names_in(host, "topics")) {
     const auto equals = word.find('=');
     if (equals == word.npos || equals + 1 >= word.size() || word[equals + 1] != '/')
       throw BadInput("attribute \"topics\": \"" + word + "\" is no pair; expected TABLE=/TOPIC, such as " +

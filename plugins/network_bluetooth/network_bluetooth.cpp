@@ -64,7 +64,13 @@ gone + those still under way.)";
     try {
       board.step(k, medium, settings, {bluetooth::band_of(0).low, bluetooth::band_of(78).high});
     } catch (const bluetooth::TooManyRadios& e) {
-      throw BadInput(e.what());
+      std::string there;
+      for (uint32_t row = 0; row < k.rows("radio"); ++row) {
+        if (k.alive("radio", row)) there += (there.empty() ? "" : ", ") + std::string(k.name("radio", row));
+      }
+      throw BadInput(e.what() + std::string("; expected ") + std::to_string(1 + bluetooth::most_slaves) +
+                     " radios or fewer, or another network in its place, such as <network.wifi/>; the radios are " +
+                     there);
     }
   }
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <muster/names.hpp>
 #include <muster/plugin.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -64,11 +64,10 @@ struct ObserveChain {
   }
 
   static std::vector<std::string> names_of(const Setup& s) {
-    std::istringstream words(s.text("chain"));
-    std::vector<std::string> result;
-    for (std::string word; words >> word;) result.push_back(word);
-    const std::string given = "chain=\"" + s.text("chain") + "\"";
-    if (result.size() < 2) throw BadInput(given + " has no link; expected two names or more");
+    const std::vector<std::string> result = names_in(s.host(), "chain");
+    const std::string given = "attribute \"chain\": \"" + s.text("chain") + "\"";
+    if (result.size() < 2)
+      throw BadInput(given + " has no link; expected two names or more, with blanks between, from the base outwards");
     for (auto name = result.begin(); name != result.end(); ++name) {
       if (std::find(result.begin(), name, *name) != name)
         throw BadInput(given + " names \"" + *name +
@@ -84,14 +83,18 @@ struct ObserveChain {
       uint32_t row = 0;
       while (row < host->rows(host, "radio") && host->row_name(host, "radio", row) != name) ++row;
       if (row == host->rows(host, "radio"))
-        throw BadInput("chain: \"" + name + "\" is no radio of this world" + blanks(name));
+        throw BadInput("attribute \"chain\": no radio is called \"" + name + "\"; expected some of " +
+                       radios_of(*host));
       result.push_back(row);
     }
     return result;
   }
 
-  static std::string blanks(const std::string& name) {
-    return name.find_first_of(",;") == name.npos ? "" : "; names stand between blanks, without commas";
+  static std::string radios_of(const muster_host& host) {
+    std::string result;
+    for (uint32_t row = 0; row < host.rows(&host, "radio"); ++row)
+      result += (row ? ", " : "") + std::string(host.row_name(&host, "radio", row));
+    return result;
   }
 
   // The further ends of the links, as they stand in the names of columns.
@@ -103,8 +106,9 @@ struct ObserveChain {
       std::replace_if(
           name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
       if (const auto same = std::find(ends.begin(), ends.end(), name); same != ends.end())
-        throw BadInput("chain: both \"" + names[static_cast<std::size_t>(same - ends.begin()) + 1] + "\" and \"" +
-                       names[i] + "\" would give the column level_" + name + "; rename one of these radios");
+        throw BadInput("attribute \"chain\": both \"" + names[static_cast<std::size_t>(same - ends.begin()) + 1] +
+                       "\" and \"" + names[i] + "\" would give the column level_" + name +
+                       "; rename one of these radios");
       ends.push_back(name);
     }
     return ends;

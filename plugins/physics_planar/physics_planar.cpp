@@ -1,4 +1,5 @@
 // physics.planar: kinematics for thousands of robots.
+#include <cmath>
 #include <muster/plugin.hpp>
 #include <optional>
 
@@ -62,6 +63,7 @@ struct PhysicsPlanar {
         planar::Asked of_robot{i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}};
         if (steering && i < k[*steering].size()) of_robot.steering = k[*steering][i];
         if (rear_drive && i < k[*rear_drive].size()) of_robot.rear = k[*rear_drive][i];
+        if (k.tick() <= 1) warn_of_depth(k, i, body.pose);
         body = planar::stepped(body, of_robot, *motors, k[acceleration], k.dt());
       }
       k[pose][i] = body.pose;
@@ -69,6 +71,15 @@ struct PhysicsPlanar {
       k[wheels][i] = body.wheels;
       if (rear_wheels) k[*rear_wheels][i] = body.rear;
     }
+  }
+
+  // Where a robot starts below the ground: it stays there, for its height does not change.
+  static void warn_of_depth(const Step& k, std::size_t i, const Pose& start) {
+    constexpr double tolerance = 1e-3;  // m
+    if (!(start.z < -tolerance)) return;
+    const std::string name(k.name("robot", i));
+    k.warn("robot/" + name, "robot '" + name + "' starts " + std::to_string(std::lround(-1000 * start.z)) +
+                                " mm below the ground; expected a place (at) on it, z = 0 or above");
   }
 
   Value acceleration;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <description/mesh.hpp>
 #include <map>
@@ -51,12 +52,19 @@ class WorldMeshes {
   }
 
  private:
+  static std::string digits(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr};
+  }
+
   Vector at_lattice(std::size_t mesh, const MeshShape& shape, const Eigen::Vector3d& vertex) const {
     const double c = std::cos(shape.yaw) * shape.scale, s = std::sin(shape.yaw) * shape.scale;
     const double x = shape.x + c * vertex.x() - s * vertex.y(), y = shape.y + s * vertex.x() + c * vertex.y();
     const double z = shape.z + shape.scale * vertex.z();
     if (!scene::within_extent(x) || !scene::within_extent(y) || !scene::within_extent(z))
-      throw BadInput("mesh \"" + names_[mesh] + "\" reaches beyond 1 km; is its scale right?");
+      throw BadInput("mesh \"" + names_[mesh] +
+                     "\" reaches beyond 1 km; is its file in millimetres? expected scale=\"" +
+                     digits(shape.scale / 1000) + '"');
     return {scene::snap(x), scene::snap(y), scene::snap(z)};
   }
 

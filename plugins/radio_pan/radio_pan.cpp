@@ -1,8 +1,8 @@
 // Membership of radios in a personal area network.
 #include <algorithm>
+#include <muster/names.hpp>
 #include <muster/pan.hpp>
 #include <muster/plugin.hpp>
-#include <sstream>
 #include <vector>
 
 namespace {
@@ -25,14 +25,13 @@ network.lrwpan and network.ns3 read it, other networks do not.)";
   };
 
   explicit RadioPan(Setup& s) : number(s.value("id")) {
-    std::vector<std::string> names;
-    std::istringstream words(s.text("radios"));
-    for (std::string name; words >> name; names.push_back(name)) {
-      if (std::find(names.begin(), names.end(), name) != names.end())
-        throw BadInput("radios: \"" + name + "\" stands there twice");
-      members.push_back(s.write<Pan>("radio/" + name + "/pan"));
+    const std::vector<std::string> names = names_in(s.host(), "radios");
+    for (auto name = names.begin(); name != names.end(); ++name) {
+      if (std::find(names.begin(), name, *name) != name)
+        throw BadInput("attribute \"radios\": \"" + *name + "\" stands there twice");
+      members.push_back(s.write<Pan>("radio/" + *name + "/pan"));
     }
-    if (names.empty()) throw BadInput("radios: there is none; expected names of radios");
+    if (names.empty()) throw BadInput("attribute \"radios\": there is none; expected names of radios");
   }
 
   void step(const Step& k) const {

@@ -76,6 +76,7 @@ struct RobotsDrive {
       if (rear_drive) k[*rear_drive][i] = {0, 0, 0, 0}, k[*rear_reached][i] = {0, 0};
       const auto* motors = robots.drive_of(model);
       if (i >= commands.size() || !k.alive("robot", i)) continue;
+      if (motors && k.tick() <= 1) warn_of_slow(k, i, commands[i], *motors);
       if (motors && motors->steering)
         steer(k, i, commands[i], *motors);
       else if (motors && motors->mecanum)
@@ -109,6 +110,22 @@ struct RobotsDrive {
                                 "<muster><differential left=\"\" right=\"\" "
                                 ".../></muster> in " +
                                 robot->file + ", or in a file of fittings");
+  }
+
+  // Of the first command that is far beyond the drive. One of which the description says itself that it creeps is not
+  // told again.
+  void warn_of_slow(const Step& k, std::size_t i, const Command& asked,
+                    const description::DifferentialDrive& motors) const {
+    constexpr double far = 2;
+    const double top = motors.max_speed * motors.wheel_radius, v = std::abs(asked.v);
+    if (top < description::slowest_drive || v <= far * top) return;
+    const std::string name(k.name("robot", i));
+    const auto number = [](double value) { return description::print_number(value); };
+    k.warn("robot/" + name, "robot '" + name + "' is asked for " + number(v) + " m/s, and its drive reaches " +
+                                number(top) + " m/s (max_speed " + number(motors.max_speed) +
+                                " rad/s, wheels of radius " + number(motors.wheel_radius) +
+                                " m); expected a lower speed of its controller, or max_speed=\"" +
+                                number(v / motors.wheel_radius) + "\" in its description; is that in m/s there?");
   }
 
   static std::string wheels_in_words(const description::Robot& robot) {

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <muster/names.hpp>
 #include <muster/plugin.hpp>
 #include <muster/senses.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -73,8 +73,7 @@ air, the time that a measurement takes.)";
         obstructions(s),
         range(s.write<Range>("range/*/message", MUSTER_SENSED)) {
     if (!s.text("biases").empty()) biases = s.file<PairBias>("biases");
-    std::istringstream words(s.text("peers"));
-    for (std::string name; words >> name;) peers.push_back(radio_named(s, name));
+    for (const std::string& name : names_in(s.host(), "peers")) peers.push_back(radio_named(s, name));
   }
 
   void step(const Step& k) const {

@@ -56,6 +56,23 @@ TEST(BodyDoubts, SizesInMillimetres) {
                        "millimetres?"));
 }
 
+TEST(BodyDoubts, ADriveThatCreeps) {
+  const auto with = [](const std::string& speed, const std::string& acceleration) {
+    std::string text = cart("0.5 0.3 0.1", "-0.05 0 0.2", "0.1", caster);
+    const std::string limits = "max_speed='10' max_acceleration='10'";
+    return warnings_of(text.replace(text.find(limits), limits.size(),
+                                    "max_speed='" + speed + "' max_acceleration='" + acceleration + "'"));
+  };
+  EXPECT_THAT(
+      with("0.6", "0.5"),
+      testing::ElementsAre(testing::EndsWith(": <differential> max_speed=\"0.6\" rad/s of a wheel is 0.06 m/s at "
+                                             "its rim (radius 0.1 m); is it in m/s? 0.6 m/s are 6 rad/s"),
+                           testing::EndsWith(": <differential> max_acceleration=\"0.5\" rad/s2 of a wheel is 0.05 "
+                                             "m/s2 at its rim (radius 0.1 m); is it in m/s2? 0.5 m/s2 are 5 "
+                                             "rad/s2")));
+  EXPECT_THAT(with("1.1", "1.1"), IsEmpty());
+}
+
 TEST(BodyDoubts, ATorqueInNewtonMillimetres) {
   EXPECT_THAT(
       warnings_of(cart("0.5 0.3 0.1", "-0.05 0 0.2", "0.1", caster, "2000")),

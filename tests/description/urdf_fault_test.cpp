@@ -246,12 +246,14 @@ const Case cases[] = {
     {"wheel_radius_contradicts_cylinder",
      wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.09' length='0.02'/>", "1.5708 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
-     "of "
-     "0.09"},
+     "of 0.09; expected wheel_radius=\"0.09\""},
     {"wheel_radius_contradicts_sphere", wheels(good, "0 1 0", "0.1", round("<sphere radius='0.04'/>", "0 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
-     "of "
-     "0.04"},
+     "of 0.04; expected wheel_radius=\"0.04\""},
+    {"wheel_radius_is_the_diameter",
+     wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.025' length='0.02'/>", "1.5708 0 0")),
+     "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
+     "of 0.025; is it the diameter? expected wheel_radius=\"0.025\""},
     {"another_drive", link("a", mass) + "<muster><tracks/></muster>",
      "3: <tracks> is not known in <muster>; expected <differential>, <ackermann>, <mecanum>, <quadrotor>, <legs>, "
      "<ball> or <laser>"},

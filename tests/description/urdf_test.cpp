@@ -319,7 +319,10 @@ TEST(Urdf, MeshInMillimetresIsWarnedAbout) {
                   "</geometry></collision></link></robot>");
   const Robot robot = read_robot(path);
   ASSERT_EQ(robot.warnings.size(), 1u);
-  EXPECT_EQ(robot.warnings[0], path + ":2: link 'a': mesh 'hokuyo.stl' is 700 m large; is its scale right?");
+  EXPECT_EQ(robot.warnings[0],
+            path +
+                ":2: link 'a': mesh 'hokuyo.stl' is 700 m large; is it in millimetres? expected <mesh "
+                "filename=\"hokuyo.stl\" scale=\"0.01 0.01 0.01\"/>, with which it is 0.7 m large");
   EXPECT_TRUE(read_robot(path, Meshes::skip).links[0].shapes.empty());
 }
 

@@ -249,7 +249,7 @@ TEST_F(Changes, PlannedSwapsAreCheckedBeforeTheFirstTick) {
   const auto swap = [&](const std::string& attributes) {
     return error_of_world(two_robots + counter + "<swap at='2' " + attributes + "/>\n");
   };
-  EXPECT_EQ(swap("instance='m' plugin='toy.copy_physics'"), "world.xml:5:1: no instance is called \"m\"; expected n");
+  EXPECT_EQ(swap("instance='m' plugin='toy.copy_physics'"), "world.xml:5:24: no instance is called \"m\"; expected n");
   EXPECT_EQ(swap("instance='n' plugin='toy.copy_physics' tow='x'"),
             "world.xml:5:53: <toy.copy_physics> has no attribute \"tow\"; expected one of name, every, library, "
             "revision, from, and, to, "

@@ -117,9 +117,10 @@ TEST_F(Claims, ARowHasOneWriter) {
   EXPECT_EQ(error_of_world(one + "<toy.copy_radio name='two' to='robot/b/v'/>\n"),
             "world.xml:5:1: two (toy.copy_radio): writes \"robot/*/v\" in the phase RADIO, but world.xml:4:1: one "
             "(toy.copy_physics) in PHYSICS; a table is written in one phase");
-  EXPECT_EQ(error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v' as='add'/>\n"),
-            "world.xml:5:1: two (toy.copy_physics): adds to \"robot/*/v\", which world.xml:4:1: one (toy.copy_physics) "
-            "writes");
+  EXPECT_EQ(
+      error_of_world(one + "<toy.copy_physics name='two' to='robot/*/v' as='add'/>\n"),
+      "world.xml:4:1: one (toy.copy_physics): writes \"robot/*/v\", to which world.xml:5:1: two (toy.copy_physics) "
+      "adds; expected one of the two, or add<...>(...) in place of write<...>(...) in the source of toy.copy_physics");
 }
 
 TEST_F(Claims, PartsOfASumAreAddedInOnePhase) {
@@ -269,7 +270,13 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
             "expected one of door, "
             "endpoint, floor, inbox, link, material, mesh, outbox, radio, robot, scan, wall; did you mean \"robot\"?");
   EXPECT_EQ(claim("to='robot/*/twist' columns='v'"),
-            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist + "\"");
+            "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/twist\" as \"v\"; its columns are \"" + twist +
+                "\", those of Twist; expected write<Twist>(...) there");
+  EXPECT_EQ(
+      claim("from='robot/*/odometry' columns='" + pose + "' to='self/x'"),
+      "world.xml:4:1: r (toy.copy_radio): claims \"robot/*/odometry\" as \"" + pose +
+          "\", those of Pose; its columns are \"x[m] y[m] yaw[rad] v[m/s] w[rad/s]\", those of Odometry; expected "
+          "read<Odometry>(...) there");
   EXPECT_EQ(claim("to='outbox/a/message' as='modify' columns='radio:radio to:radio? payload{}'"),
             "world.xml:4:1: r (toy.copy_radio): modifies \"outbox/a/message\"; expected a whole queue");
 }

@@ -28,7 +28,17 @@ TEST_F(Params, ValuesAreHeldAgainstTheDeclaration) {
   EXPECT_EQ(set("n/add", std::numeric_limits<double>::quiet_NaN()),
             "parameter \"n/add\": nan is out of bounds; expected a number from -1e+06 to 1e+06 m");
   EXPECT_EQ(set("f/tick", 2.5), "parameter \"f/tick\": 2.5 is no integer; expected an integer from 0 to 1000");
-  EXPECT_EQ(set("n/robot", 1), "parameter \"n/robot\": a reference is claimed for good; expected a swap");
+  EXPECT_EQ(
+      set("n/robot", 1),
+      "\"n/robot\" is the name of a robot, and no parameter: numbers, flags and choices are; expected robot=\"...\" "
+      "in the world, at world.xml:4:1, or beside this run one with another (muster compare WORLD "
+      "n=toy.copy_radio:robot=VALUE)");
+  EXPECT_EQ(set("robot/a/at", 1),
+            "\"robot/a/at\" is 3 numbers, and no parameter: single numbers, flags and choices are; expected "
+            "at=\"...\" of <robot>, at world.xml:2:1");
+  EXPECT_EQ(set("robot/a/model", 1),
+            "\"robot/a/model\" is a text, and no parameter: single numbers, flags and choices are; expected "
+            "model=\"...\" of <robot>, at world.xml:2:1");
   EXPECT_EQ(set("n/ad", 1),
             "there is no parameter \"n/ad\"; expected one of n/as, n/flags, n/read_flags, n/own, n/add, n/times; "
             "did you mean \"n/as\"?");
@@ -46,7 +56,7 @@ TEST_F(Params, MaterialsByTheirPath) {
   step(sim);
   EXPECT_EQ(cell(sim, "material/brick/seen"), 8);
   EXPECT_THAT(error_of([&] { sim.set_parameter("wall/w/from", 3); }),
-              HasSubstr("there is no parameter \"wall/w/from\""));
+              HasSubstr("\"wall/w/from\" is 2 numbers, and no parameter"));
   EXPECT_EQ(error_of([&] { sim.set_parameter("material/brick/loss", -1); }),
             "parameter \"material/brick/loss\": -1 is out of bounds; expected a number from 0 to 100 dB");
 }

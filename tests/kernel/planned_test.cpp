@@ -98,6 +98,39 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
             "world.xml:5:17: <swap> has no attribute \"at\" inside <at>, whose time it has");
 }
 
+TEST_F(Planned, ASetOfWhatIsNoNumberIsToldWithTheSwapThatDoesIt) {
+  const auto error = [&](const std::string& change, const std::string& when = "t='2'") {
+    return error_of([&] { run(two_robots + adder + "<at " + when + ">" + change + "</at>\n"); });
+  };
+  const std::string fixed =
+      "world.xml:5:22: \"mover/to\" is a text, and no parameter: numbers, flags and choices are; expected to=\"...\" "
+      "in "
+      "the world, at world.xml:4:1, or here <swap instance=\"mover\"><toy.copy_physics to=\"robot/*/x\" columns=\"" +
+      pose + "\" own=\"true\" add=\"1\"/></swap>";
+  EXPECT_EQ(error("<set path='mover/to' value='robot/*/x'/>"), fixed);
+  EXPECT_THAT(error("<set path='mover/to' value='3'/>"), testing::HasSubstr("\"mover/to\" is a text"));
+  EXPECT_THAT(
+      error("<set path='mover/robot' value='b'/>"),
+      testing::AllOf(testing::HasSubstr("is the name of a robot"), testing::HasSubstr(" robot=\"b\"/></swap>")));
+  EXPECT_THAT(error("<set path='mover/to' value='x'/>", "when='robot/a/pose/x above 2'"),
+              testing::HasSubstr("\"mover/to\" is a text"));
+  EXPECT_EQ(error("<set path='robot/a/model' value='husky'/>"),
+            "world.xml:5:22: \"robot/a/model\" is a text, and no parameter: single numbers, flags and choices are; "
+            "expected model=\"...\" of <robot>, at world.xml:2:1");
+  // What is advised is accepted.
+  EXPECT_EQ(error("<swap instance=\"mover\"><toy.copy_physics to=\"robot/*/pose\" columns=\"" + pose +
+                  "\" own=\"true\" add=\"2\"/></swap>"),
+            "no error");
+}
+
+TEST_F(Planned, AStateThatIsSetIsToldWithAParameterOfThisWorld) {
+  const std::string steering = "<toy.copy_control name='driver' to='robot/a/command' columns='v[m/s] w[rad/s]'/>\n";
+  EXPECT_EQ(
+      error_of([&] { run(two_robots + adder + steering + "<at t='2'><set path='robot/a/pose/x' value='5'/></at>\n"); }),
+      "world.xml:6:22: \"robot/a/pose/x\" is a state, which plugins write, and no parameter; expected a "
+      "parameter, such as driver/add, or <leave> and a <robot> that joins at another place");
+}
+
 // In place of `adder`: moves one robot.
 std::string that_moves(const std::string& robot, const std::string& name) {
   return "<toy.copy_physics name='" + name + "' to='robot/" + robot + "/pose' columns='" + pose +

@@ -80,6 +80,11 @@ TEST_F(LibraryTest, SaysWhereItLookedAndWhatIsNear) {
   EXPECT_EQ(message("radio.multiwall", {folder, "/nowhere"}),
             "world.xml:5:3: plugin \"radio.multiwall\": radio_multiwall.so not found; looked in " + folder.string() +
                 ", /nowhere");
+  EXPECT_EQ(message("zoo.other", {folder, zoo}),
+            "world.xml:5:3: plugin \"zoo.other\": zoo_other.so not found; looked in " + folder.string() + ", " +
+                zoo.string() + "; " + (zoo / "zoo_impostor.so").string() +
+                " has the id zoo.other, and a plugin's file is named after it: expected zoo_other.so, by "
+                "muster_plugin(zoo_other ...) in its CMakeLists.txt");
   EXPECT_EQ(message("zoo.good", {}),
             "world.xml:5:3: plugin \"zoo.good\": zoo_good.so not found; looked in no folder: the plugin path is empty");
   EXPECT_EQ(

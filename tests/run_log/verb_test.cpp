@@ -72,6 +72,10 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
   refused({"log", "cut", "a.txt", "--from", "1"}, "cut needs --out, the file to write");
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "2", "--to", "2"},
           "--from 2 is not before --to 2, which is not included");
+  refused({"log", "cut", "a.txt", "-o", "b", "--from", "3", "--to", "1"},
+          "--from 3 is after --to 1; expected --from 1 --to 3");
+  refused({"log", "cut", "a.txt", "-o", "b", "--from", "1min"},
+          "--from: \"1min\" is not a number; \"min\" follows the number; expected seconds: --from 60");
   refused({"log", "info", "a.txt", "--from", "1"}, "--from and --to are of cut, not of info");
   refused({"log", "recover", "a.txt", "--column", "x"}, "--column is of csv, not of recover");
   refused({"run", world, "--plot", "robot/*/pose/x"}, "--plot needs --out, the folder to draw into");

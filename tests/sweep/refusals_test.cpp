@@ -52,7 +52,10 @@ TEST(SweepRefusals, OfWords) {
   refused({"plan.xml", "--out", "out", "--index", "1"},
           "--index and --of belong together: the share, from 1, and how many there are");
   refused({"plan.xml", "--out", "out", "--index", "0", "--of", "2"},
-          "--index: \"0\" is no share; expected an integer from 1 to 100000");
+          "--index: \"0\" is no share; expected an integer from 1 to 2: shares count from 1 (of an array of Slurm from "
+          "0: --index $((SLURM_ARRAY_TASK_ID + 1)))");
+  refused({"plan.xml", "--out", "out", "--index", "one", "--of", "2"},
+          "--index: \"one\" is no share; expected an integer from 1 to 2");
   refused({"plan.xml", "--out", "out", "--index", "3", "--of", "2"},
           "--index: there is no share 3 of 2; expected one from 1 to 2");
   refused({"plan.xml", "--out", "way.csv"}, "--out: way.csv is a file; expected a folder");

@@ -123,8 +123,7 @@ TEST_F(Table, RefusesBadHeaders) {
             "d.csv:1:1: begins as a DXF drawing does; expected a table: a header of names, and ',' between cells");
   EXPECT_EQ(error_in("t[s],tx,t\n"), "d.csv:1:9: column \"t\" stands twice; the first is column 1 of the header");
   const std::string expected = " is not a column; expected name or name[unit], without spaces around it";
-  for (const std::string label :
-       {"", "[m]", "b[", "b[]", "b]", "b[m", "b[m]x", "b[[m]]", " b", "b ", "b [m]", "b[m]]"}) {
+  for (const std::string label : {"[m]", "b[", "b[]", "b]", "b[m", "b[m]x", "b[[m]]", " b", "b ", "b [m]", "b[m]]"}) {
     EXPECT_EQ(error_in("a," + label + ",c\n"), "d.csv:1:3: \"" + label + "\"" + expected);
   }
 }
@@ -211,8 +210,33 @@ TEST_F(Table, RequiresColumnsByNameAndUnit) {
   EXPECT_EQ(error([&] { table.require("rssi", "dB"); }),
             "d.csv:1:12: column \"rssi[dBm]\" has the wrong unit; expected \"rssi[dB]\"");
   EXPECT_EQ(error([&] { table.require("t", ""); }), "d.csv:1:1: column \"t[s]\" has the wrong unit; expected \"t\"");
-  EXPECT_EQ(error([&] { table.require("tx", "m"); }),
-            "d.csv:1:6: column \"tx\" has the wrong unit; expected \"tx[m]\"");
+  EXPECT_EQ(error([&] { table.require("tx", "m"); }), "d.csv:1:6: column \"tx\" has no unit; expected \"tx[m]\"");
+}
+
+TEST_F(Table, UnitsBelowTheHeaderAreToldAsSuch) {
+  const TextTable table = read("t,tx,rx_x,rssi\ns,,m,dBm\n0.5,base,1,-40\n");
+  const std::string expected =
+      " has no unit, and line 2 holds units; expected them in the header, t[s],tx,rx_x[m],rssi[dBm], and no line of "
+      "units";
+  EXPECT_EQ(error([&] { table.require("t", "s"); }), "d.csv:1:1: column \"t\"" + expected);
+  EXPECT_EQ(error([&] { table.require("rssi", "dBm"); }), "d.csv:1:11: column \"rssi\"" + expected);
+  EXPECT_EQ(error([&] { table.require("rx_x", "rad"); }),
+            "d.csv:1:6: column \"rx_x\" has no unit; expected \"rx_x[rad]\"");
+  const TextTable both = read("t[s],rssi[dBm]\ns,dBm\n0.5,-40\n");
+  EXPECT_EQ(error([&] { both.reals(0); }),
+            "d.csv:2:1: the line holds units, which the header has; expected rows of numbers below it");
+}
+
+TEST_F(Table, ColumnsWithoutANameAreToldByWhereTheyStand) {
+  EXPECT_EQ(error_in("t[s],tx,\n1,base,\n"),
+            "d.csv:1:9: the header ends in a comma, so that a last column has no name; expected no comma there, nor at "
+            "the end of the rows: sed 's/,\\r*$//' FILE takes them away");
+  EXPECT_EQ(error_in(",t[s],tx\n0,1,base\n"),
+            "d.csv:1:1: the header begins with a comma, so that the first column has no name, as the index that pandas "
+            "writes; expected to_csv(..., index=False): cut -d, -f2- FILE takes it away");
+  EXPECT_EQ(error_in("t[s],,tx\n1,,base\n"),
+            "d.csv:1:6: two commas stand side by side in the header, so that column 2 has no name; expected name or "
+            "name[unit]");
 }
 
 TEST_F(Table, WritesWhatItReads) {

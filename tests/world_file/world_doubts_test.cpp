@@ -38,6 +38,27 @@ TEST_F(WorldDoubts, HeightsThatDoNotFit) {
             "millimetres?");
 }
 
+TEST_F(WorldDoubts, WhatStandsBelowTheGround) {
+  const std::string ned = " m below the ground (z = 0); is z down here, as in PX4 (NED)? expected metres up: ";
+  EXPECT_EQ(doubts_with(wall + "<station name='s' at='2 1 -1.5'/>"),
+            "world.xml:3:23: attribute \"at\": station \"s\" is 1.5" + ned + "at=\"2 1 1.5\"\n");
+  EXPECT_EQ(doubts_with(wall + "<at t='1'><station at='2 1 -1.5'/></at>"),
+            "world.xml:3:24: attribute \"at\": station is 1.5" + ned + "at=\"2 1 1.5\"\n");
+  EXPECT_EQ(doubts_with(wall + "<floor corners='0 0 1 0 1 1 0 1' z='-2.7' material='m'/>"),
+            "world.xml:3:37: attribute \"z\": floor is 2.7" + ned + "z=\"2.7\"\n");
+  EXPECT_EQ(doubts_with("<material name='m' loss='3'/><wall name='a' from='0 0' to='4 0' base='-2.7' material='m'/>"),
+            "world.xml:2:30: wall \"a\" stands from -2.7 to 0 m, as all walls do, below the ground (z = 0); is z down "
+            "here, as in PX4 (NED)? expected metres up: base=\"0\"\n");
+  // A cellar, the slab under a floor, and a valley are sound.
+  const std::string cellar = "<wall name='c' from='0 0' to='4 0' base='-3' height='3' material='m'/>";
+  EXPECT_EQ(
+      doubts_with(wall + cellar + "<station at='2 1 -1.5'/><floor corners='0 0 1 0 1 1 0 1' z='-3' material='m'/>"),
+      "");
+  EXPECT_THAT(doubts_with(wall + cellar + "<station at='2 1 -4'/>"), testing::HasSubstr("station is 4" + ned));
+  EXPECT_EQ(doubts_with(wall + "<floor corners='0 0 1 0 1 1 0 1' z='-0.2' material='m'/><station at='2 1 0'/>"), "");
+  EXPECT_EQ(doubts_with(wall + "<mesh file='valley.stl' kind='sheet' material='m'/><station at='2 1 -1.5'/>"), "");
+}
+
 TEST_F(WorldDoubts, TicksInWhichNobodyCanSteer) {
   const auto dt = [&](const std::string& attribute, const std::string& plugin) {
     return doubts(read("<world dt='" + attribute + "' until='100'>" + plugin + "</world>"));

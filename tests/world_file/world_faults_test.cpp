@@ -42,7 +42,7 @@ TEST_F(Faults, Fault5MisspeltNames) {
       error_with("<record table='x' evry='2'/>"),
       "world.xml:2:19: <record> has no attribute \"evry\"; expected one of table, every; did you mean \"every\"?");
   EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.c' plugin='x.y'/>"),
-            "world.xml:3:1: no instance is called \"a.c\"; expected a.b; did you mean \"a.b\"?");
+            "world.xml:3:24: no instance is called \"a.c\"; expected a.b; did you mean \"a.b\"?");
   EXPECT_EQ(error_with("<a.b/>\n<swap at='1' instance='a.b'/>"),
             "world.xml:3:1: <swap> has no attribute \"plugin\", which it needs; expected the new plugin's id, or the "
             "plugin as an element inside");
@@ -82,7 +82,7 @@ TEST_F(Faults, Fault6Numbers) {
   EXPECT_EQ(error_with("<a.b revision='-1'/>"),
             "world.xml:2:16: attribute \"revision\": -1 is out of bounds; expected an integer from 1");
   EXPECT_THAT(error_with("<robot at='0 0'/>"), HasSubstr("world.xml:2:12: attribute \"at\": "));
-  EXPECT_THAT(error_with("<robot at='0 0 0 0'/>"), HasSubstr("; expected 3 numbers from -1e+06 to 1e+06 m"));
+  EXPECT_THAT(error_with("<robot at='0 0 0 0 0'/>"), HasSubstr("; expected 3 numbers from -1e+06 to 1e+06 m"));
 }
 
 TEST_F(Faults, Fault7Units) {
@@ -158,11 +158,62 @@ TEST_F(Faults, AFileOfNoWallsIsWarnedOf) {
             "attribute \"file\": \"walls.csv\" has no rows below its header, so that it adds nothing");
 }
 
+TEST_F(Faults, DoorsThatOverlapAreToldWithAPlaceThatIsFree) {
+  const std::string wall = "<material name='m' loss='3'/><wall name='a' from='0 0' to='4 0' material='m'/>";
+  const auto doors = [&](const std::string& first, const std::string& second) {
+    return error_with(wall + "<door name='p' wall='a' " + first + "/>\n<door name='q' wall='a' " + second + "/>");
+  };
+  EXPECT_EQ(
+      doors("at='1' width='1'", "at='1.5' width='1'"),
+      "world.xml:3:29: door \"q\" (1.5 to 2.5 m) overlaps door \"p\" (1 to 2 m, world.xml:2:79) in the same wall; "
+      "expected at=\"2\" or more");
+  EXPECT_THAT(doors("at='2.5' width='1'", "at='2' width='1'"), testing::EndsWith("expected at=\"1.5\" or less"));
+  EXPECT_THAT(doors("at='1' width='2'", "at='1.5' width='2'"),
+              testing::EndsWith("expected a narrower door, or one of the two"));
+  EXPECT_EQ(doors("at='1' width='1'", "at='2' width='1'"), "no error");
+  EXPECT_EQ(error_with(wall + "<wall name='b' from='0 1' to='4 1' material='m'/><door wall='a' at='1'/><door wall='b' "
+                              "at='1'/>"),
+            "no error");
+}
+
+TEST_F(Faults, APoseInThePlaceOfAPlace) {
+  EXPECT_EQ(
+      error_with("<robot at='3 2 0 0 0 1.57'/>"),
+      "world.xml:2:12: attribute \"at\": \"3 2 0 0 0 1.57\" has 6 numbers (x y z roll pitch yaw?); expected three, "
+      "x y z in m, and the heading as an attribute of its own: at=\"3 2 0\" heading=\"1.57\"");
+  EXPECT_THAT(error_with("<robot at='3 2 0 1.57'/>"), testing::EndsWith("at=\"3 2 0\" heading=\"1.57\""));
+  EXPECT_THAT(error_with("<station at='3 2 1 0 0 0.7071067811865475 0.7071067811865476'/>"),
+              testing::EndsWith("at=\"3 2 1\" yaw=\"1.570796\""));
+  EXPECT_THAT(error_with("<robot at='3 2'/>"), testing::HasSubstr("has 2 numbers; expected 3 numbers"));
+}
+
+TEST_F(Faults, ASwapOfThePluginsNameIsToldWhoseItIs) {
+  const std::string world = "<a.b name='x'/>\n<c.d/>\n";
+  const std::string expected = ": no instance is called \"a.b\", which is the plugin of \"x\"; expected instance=\"x\"";
+  EXPECT_EQ(error_with(world + "<swap at='1' instance='a.b' plugin='a.c'/>"), "world.xml:4:24" + expected);
+  EXPECT_EQ(error_with(world + "<at t='1'><remove instance='a.b'/></at>"), "world.xml:4:29" + expected);
+  EXPECT_EQ(error_with(world + "<at t='1'><swap instance='a.b'><a.c/></swap></at>"), "world.xml:4:27" + expected);
+  EXPECT_EQ(error_with(world + "<swap at='1' instance='y' plugin='a.c'/>"),
+            "world.xml:4:24: no instance is called \"y\"; expected one of c.d, x");
+}
+
+TEST_F(Faults, TimesAndLengthsWithUnitsAreToldAsNumbers) {
+  EXPECT_THAT(error("<world dt='0.1' until='1min'/>"), testing::EndsWith("from 0; 1min are 60 s"));
+  EXPECT_THAT(error_with("<at t='500ms'><leave robot='a'/></at>"), testing::EndsWith("from 0; 500ms are 0.5 s"));
+  EXPECT_THAT(error_with("<robot at='0 0 0' heading='90deg'/>"), testing::EndsWith(" rad; 90deg are 1.570796327 rad"));
+}
+
 TEST_F(Faults, Fault13OneNameTwice) {
   EXPECT_EQ(error_with("<robot name='a' at='0 0 0'/>\n<robot name='a' at='1 0 0'/>"),
             "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");
-  EXPECT_EQ(error_with("<robot name='a' at='0 0 0'/>\n<station name='a' at='1 0 0'/>"),
-            "world.xml:3:1: a second radio is called \"a\"; the first is at world.xml:2:1");
+  EXPECT_EQ(
+      error_with("<robot name='a' at='0 0 0'/>\n<station name='a' at='1 0 0'/>"),
+      "world.xml:3:16: station \"a\" has the name of robot \"a\" at world.xml:2:1, and each is a radio by its name; "
+      "expected another name for one of them");
+  EXPECT_EQ(
+      error_with("<at t='1'><station name='a' at='0 0 0'/></at>\n<robot name='a' at='1 0 0'/>"),
+      "world.xml:3:14: robot \"a\" has the name of station \"a\" at world.xml:2:11, and each is a radio by its name; "
+      "expected another name for one of them");
   EXPECT_EQ(error_with("<a.b/>\n<a.b/>"),
             "world.xml:3:1: a second instance is called \"a.b\"; the first is at world.xml:2:1; give one of them a "
             "name=\"...\" of its own");

@@ -159,6 +159,13 @@ std::string doubt_of_frame(const LinkModel& model, double dx, double dy) {
          shifted("rx_y", dy) + ", and tx_x, tx_y alike)";
 }
 
+// " (world.xml:7:3)", where the world has the radio.
+std::string of_world(const std::vector<RowDeclaration>& rows, const std::string& name) {
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const RowDeclaration& each) { return each.name == name; });
+  return row == rows.end() || row->place.line == 0 ? "" : " (" + row->place.text() + ")";
+}
+
 std::vector<std::string> check_stations(const LinkModel& model, const Dataset& data) {
   std::vector<std::string> notes;
   const Table* mounts = model.simulation().board().find("radio/*/mount");
@@ -179,7 +186,11 @@ std::vector<std::string> check_stations(const LinkModel& model, const Dataset& d
                         what = quote(name) + " stands at " + place(end.x, end.y) + " in the data and at " + there;
       if (turned < 0.01) throw invalid(data.table->place(row, 0), what + ": x and y are exchanged");
       if (!moves(model, end.radio, 0.5)) {
-        notes.push_back(what + "; the data's place is used" + doubt_of_frame(model, end.x - mount.x, end.y - mount.y));
+        notes.push_back(data.table->place(row, 0).text() + ": " + what + of_world(declared, name) +
+                        "; the data's place is used; where the data are right, correct the world to at=\"" +
+                        print_real(end.x) + ' ' + print_real(end.y) + ' ' + print_real(end.z) +
+                        "\", and where the world is, the table" +
+                        doubt_of_frame(model, end.x - mount.x, end.y - mount.y));
         continue;
       }
       const int other = stands_there(model, end.radio, mount);

@@ -98,6 +98,110 @@ TEST(CommandWords, ListsWithCommasCornersAndPlugins) {
             "radio.multiwall\n");
 }
 
+TEST(CommandWords, AnOptionOfAnotherVerb) {
+  EXPECT_THAT(
+      words_said_by({"check", "world.xml", "--set", "a/b=1"}),
+      testing::StartsWith("muster: error: muster check: there is no option \"--set\" (an option of run, swap, "));
+  EXPECT_THAT(words_said_by({"plugins", "--until", "1"}), HasSubstr("\"--until\" (an option of run, swap, compare"));
+}
+
+TEST(CommandWords, AnAttributeAsAnOption) {
+  EXPECT_THAT(
+      words_said_by({"swap", "world.xml", "--at", "1", "--instance", "a", "--plugin", "b.c", "--step", "0.002"}),
+      testing::StrEq("muster: error: muster swap: there is no option \"--step\"; attributes of the new plugin are "
+                     "words without dashes: step=0.002; see muster swap --help\n"));
+  EXPECT_THAT(
+      words_said_by({"run", "world.xml", "--loss=4"}),
+      testing::StrEq("muster: error: muster run: there is no option \"--loss\"; a parameter of a plugin or of the "
+                     "world is --set INSTANCE/loss=4; see muster run --help\n"));
+  EXPECT_THAT(words_said_by({"run", "world.xml", "--free", "n"}), HasSubstr("\"--free\" (an option of fit); "));
+  EXPECT_THAT(words_said_by({"run", "world.xml", "--duration", "4"}),
+              HasSubstr("; did you mean \"--until\"? expected"));
+}
+
+TEST(CommandWords, AVerbThatIsAnOptionOfRun) {
+  EXPECT_EQ(
+      words_said_by({"view", "world.xml"}),
+      "muster: error: there is no verb \"view\"; to watch a run: muster run world.xml --view (muster --help lists "
+      "the verbs)\n");
+  EXPECT_THAT(words_said_by({"record"}), HasSubstr("muster run WORLD --mcap run.mcap"));
+  EXPECT_THAT(words_said_by({"validate", "world.xml"}), HasSubstr("did you mean \"check\"?"));
+}
+
+TEST(CommandWords, TimesAndLengthsWithUnits) {
+  EXPECT_EQ(
+      words_said_by({"run", "world.xml", "--until", "1min"}),
+      "muster: error: --until: \"1min\" is not a number; \"min\" follows the number; expected seconds: --until 60\n");
+  EXPECT_THAT(words_said_by({"run", "world.xml", "--until", "00:01:30"}), HasSubstr("expected seconds: --until 90\n"));
+  EXPECT_THAT(words_said_by({"run", "world.xml", "--until", "long"}), HasSubstr("is not a number; expected seconds\n"));
+  EXPECT_THAT(words_said_by({"map", "world.xml", "--out", "m", "--height", "150cm"}),
+              HasSubstr("expected metres: --height 1.5\n"));
+}
+
+TEST(CommandWords, ASweepUntilATimeWithAUnit) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of(""));
+  folder.write("s.xml", R"(<sweep world="world.xml" seeds="1" until="1min"/>)");
+  expect_error(
+      folder.muster({"sweep", "s.xml", "--out", "o"}), 2,
+      "s.xml:1:43: until: \"1min\" is not a number; \"min\" follows the number; expected seconds; 1min are 60 s");
+}
+
+TEST(CommandWords, ABundleInThePlaceOfAWorld) {
+  const ProgramFolder folder;
+  folder.write("b.tar.zst", "\x28\xB5\x2F\xFD....");
+  folder.write("renamed", "\x28\xB5\x2F\xFD....");
+  for (const std::string name : {"b.tar.zst", "renamed"})
+    expect_error(folder.muster({"bundle", name, "--out", "c.tar.zst"}), 2,
+                 name + " is a bundle, and no world; did you mean muster bundle check " + name + "?");
+  folder.write("world.xml", world_of(""));
+  for (const std::string name : {"world.xml", "."})
+    expect_error(
+        folder.muster({"bundle", "check", name}), 2,
+        name + " is a world, and no bundle; expected muster bundle " + name + " --out NAME.tar.zst, which makes one");
+  expect_error(folder.muster({"run", "b.tar.zst"}), 2,
+               "b.tar.zst: is compressed by zstd; expected plain text, or of a bundle of muster: muster bundle check "
+               "b.tar.zst");
+}
+
+TEST(CommandWords, AParameterWithoutItsInstanceAndOneThatNoFitMoves) {
+  EXPECT_THAT(
+      said_beside_a_channel({"run", "lab", "--set", "n=1.7"}),
+      testing::StartsWith("muster: error: there is no parameter \"n\"; did you mean \"channel/n\"? expected one of "));
+  const std::string data = "m.csv", begin = "muster: error: --free channel/model: it is a choice of ";
+  const ProgramFolder folder;
+  folder.write("world.xml",
+               R"(<world name="w" dt="1" until="2"><station name="a" at="0 0 1"/><station name="b" at="4 0 1"/>)"
+               R"(<radio.multiwall name="channel"/></world>)");
+  folder.write(data,
+               "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n"
+               "0,a,b,0,0,1,4,0,1,-50\n1,a,b,0,0,1,5,0,1,-52\n2,a,b,0,0,1,7,0,1,-56\n");
+  const Outcome outcome = folder.muster({"fit", "world.xml", "--data", data, "--free", "channel/model"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err, testing::StartsWith(begin));
+  EXPECT_THAT(outcome.err, HasSubstr(", which no fit moves; expected one of "));
+  EXPECT_THAT(outcome.err, HasSubstr("channel/l0, channel/n ("));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr(", channel/model")));
+}
+
+TEST(CommandWords, APluginByItsFile) {
+  for (const std::string name : {"radio_multiwall", "radio_multiwall.so"})
+    EXPECT_EQ(said_beside_a_channel({"describe", name}), "muster: error: there is no element \"" + name +
+                                                             "\", and a plugin has a dot in its name; expected "
+                                                             "radio.multiwall\n");
+}
+
+TEST(CommandWords, ASeedBesideAStateIsNoted) {
+  const ProgramFolder folder;
+  folder.write("world.xml", R"(<world name="w" dt="1" until="4"><station name="a" at="0 0 1"/></world>)");
+  ASSERT_EQ(folder.muster({"run", "world.xml", "--until", "2", "--save", "early"}).exit, 0);
+  EXPECT_EQ(
+      folder.muster({"run", "world.xml", "--restore", "early", "--seed", "5"}).err,
+      "muster: note: --seed 5 counts from 2 s on: what early holds was drawn from the seed of its own run, and the "
+      "fields of the channel are others from then on\n");
+  EXPECT_EQ(folder.muster({"run", "world.xml", "--restore", "early"}).err, "");
+}
+
 TEST(CommandWords, AStateAfterTheEnd) {
   EXPECT_EQ(
       said_beside_a_channel({"run", "lab", "--restore", "early", "--until", "1"}),

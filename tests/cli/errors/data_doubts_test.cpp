@@ -80,8 +80,11 @@ TEST(DataDoubts, AnotherFrame) {
   EXPECT_THAT(
       said_of_data([](Reading& r) { r.x += 150, r.y += 320; }, "", "150,320,1"),
       HasSubstr(
-          "note: \"base\" stands at x = 150, y = 320 m in the data and at x = 0, y = 0 m in the world; the data's "
-          "place is used; all places of the data lie outside of the world's walls, and inside if they are moved by "
+          ":2:1: \"base\" stands at x = 150, y = 320 m in the data and at x = 0, y = 0 m in the world "
+          "(world.xml:5:1); "
+          "the data's place is used; where the data are right, correct the world to at=\"150 320 1\", and where the "
+          "world is, the table; all places of the data lie outside of the world's walls, and inside if they are moved "
+          "by "
           "-150, -320 m: are they of another frame? expected the plan's (a map of muster import: rx_x[m] = COLUMN "
           "- 150, rx_y[m] = COLUMN - 320, and tx_x, tx_y alike)"));
 }
@@ -109,6 +112,10 @@ TEST(DataDoubts, Degrees) {
 TEST(DataDoubts, Heights) {
   EXPECT_THAT(said_of_data([](Reading& r) { r.z = 400; }),
               HasSubstr("note: \"rover\" stands 400 m high, and the walls end at 2.7 m; are these millimetres?"));
+  EXPECT_THAT(
+      said_of_data([](Reading& r) { r.z = -0.4; }),
+      HasSubstr("note: \"rover\" is 0.4 m or more below the ground (z = 0), throughout; is z down in the data, as "
+                "in PX4 (NED)? expected metres up (a map of muster import: rx_z[m] = -1*COLUMN)"));
 }
 
 TEST(DataDoubts, Bel) {

@@ -183,7 +183,7 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
   expect_error(run_toy(folder, R"(<robot name="a" at="0 0 0"/><test.wrong_columns/>)"), 2,
                "world.xml:1:64: test.wrong_columns (test.wrong_columns): claims \"robot/*/pose\" as \"value[m]\"; its "
                "columns are \"x[m] "
-               "y[m] z[m] qw qx qy qz\"");
+               "y[m] z[m] qw qx qy qz\", those of Pose; expected read<Pose>(...) there");
   expect_error(
       run_toy(folder,
               R"(<robot name="a" at="0 0 0"/><test.second_writer name="one"/><test.second_writer name="two"/>)"),

@@ -61,7 +61,8 @@ TEST(Habits, ModelsOfOthers) {
   EXPECT_EQ(refusal_of(robot + "model.sdf" + end),
             begin +
                 "world.xml:2:26: attribute \"model\": model.sdf is SDF, which muster does not read as a robot; "
-                "expected URDF or MJCF: gz sdf, xacro and CAD programs write URDF\n");
+                "expected URDF or MJCF: the URDF or xacro that it was made from (gz sdf -p makes SDF of URDF, and does "
+                "not go back)\n");
   EXPECT_THAT(
       refusal_of(robot + "turtlebot3_burger" + end),
       testing::StartsWith(begin + "world.xml:2:26: attribute \"model\": there is no model \"turtlebot3_burger\"; "
@@ -157,6 +158,44 @@ TEST(Habits, AnImportReadsColumnsWithDotsAndSaysWhatDivisionIs) {
                "\"field.rssi\"?");
   expect_error(import("rssi[dBm] = field.rssi\nrx_x[m] = field.x / 100\n"), 2,
                "log.map:7: \"field.x / 100\": a rule has no division; expected 0.01*field.x (SCALE*COLUMN + OFFSET)");
+}
+
+TEST(Habits, AnImportHasNoFunctionsButSaysTheFactor) {
+  const ProgramFolder folder;
+  folder.write("log.csv", "t,heading_deg,rssi\n1,90,-50\n2,180,-56\n");
+  const auto import = [&](const std::string& yaw) {
+    folder.write("log.map",
+                 "tx = \"a\"\nrx = \"b\"\ntx_x[m] = 0\ntx_y[m] = 0\nrx_x[m] = 1\nrx_y[m] = 0\nrssi[dBm] = rssi\n"
+                 "rx_yaw[rad] = " +
+                     yaw + "\n");
+    return folder.muster({"import", "log.csv", "--map", "log.map", "--out", "out.csv"});
+  };
+  for (const std::string call : {"deg2rad", "radians", "toRadians"})
+    expect_error(import(call + "(heading_deg)"), 2,
+                 "log.map:8: there is no function " + call +
+                     "; expected 0.017453292519943295*heading_deg, which makes degrees in rad");
+  expect_error(
+      import("sqrt(heading_deg)"), 2,
+      "log.map:8: there is no function sqrt, only log10; expected SCALE*COLUMN + OFFSET or SCALE*log10(COLUMN) + "
+      "OFFSET, such as 0.001*heading_deg");
+  EXPECT_EQ(import("0.017453292519943295*heading_deg").exit, 0);
+  for (const std::string rule : {"heading_deg*pi/180", "heading_deg * M_PI/180", "pi/180*heading_deg"})
+    expect_error(import(rule), 2,
+                 "log.map:8: \"" + rule +
+                     "\": a rule is SCALE*COLUMN + OFFSET, with numbers for SCALE and OFFSET; expected "
+                     "0.017453292519943295*heading_deg");
+  expect_error(
+      import("heading_deg * 0.0175"), 2,
+      "log.map:8: \"heading_deg * 0.0175\": a rule is SCALE*COLUMN + OFFSET, with numbers for SCALE and OFFSET; "
+      "expected 0.0175*heading_deg");
+  expect_error(
+      import("-heading_deg"), 2,
+      "log.map:8: log.csv has no column \"-heading_deg\", and it is no rule; expected -1*heading_deg; expected "
+      "one of t, heading_deg, rssi; did you mean \"heading_deg\"?");
+  folder.write("log.csv", "t,heading_deg,rssi\ns,deg,dBm\n1,90,-50\n");
+  expect_error(import("0.0175*heading_deg"), 2,
+               "log.csv:2: the line holds units and no reading; expected it away: sed '2d' FILE, and the units in the "
+               "rules of the map");
 }
 
 TEST(Habits, AMapSaysWhereItIsAndRefusesCornersOutOfOrder) {

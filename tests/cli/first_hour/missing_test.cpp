@@ -71,7 +71,8 @@ TEST(FirstHour, EightSlavesOfBluetooth) {
     stations += "<station name=\"s" + std::to_string(i) + "\" at=\"" + std::to_string(i) + " 0 1\"/>";
   expect_refused(stations + "\n" + channel + "<network.bluetooth/>\n<control.beacon radio=\"s0\"/>",
                  "world.xml:4:1: network.bluetooth (network.bluetooth): 9 radios; a "
-                 "piconet has one master and at most 7 slaves");
+                 "piconet has one master and at most 7 slaves; expected 8 radios or fewer, or another network in its "
+                 "place, such as <network.wifi/>; the radios are s0, s1, s2, s3, s4, s5, s6, s7, s8");
 }
 
 TEST(FirstHour, ATableByAnotherWord) {

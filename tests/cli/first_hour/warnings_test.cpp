@@ -40,7 +40,7 @@ TEST(FirstHour, RobotsThatStartInWallsAndInEachOther) {
 }
 
 TEST(FirstHour, ARobotThatStartsBelowTheGround) {
-  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>"}) {
+  for (const std::string physics : {"<physics.simbody/>", "<physics.ode/>", "<physics.planar/>"}) {
     EXPECT_EQ(warnings_of("<robot name=\"rover\" at=\"0 0 -1\"/>\n" + physics),
               "warning: world.xml:2:1: robot 'rover' starts 1000 mm below the ground; expected a place (at) on it, z = "
               "0 or above\n");
@@ -86,6 +86,18 @@ TEST(FirstHour, CommandsThatReachNoMotor) {
             "warning: world.xml:2:1: robot 'drone' is commanded, but its model 'hummingbird' flies, so that a command "
             "of wheels (robot/*/command) does not move it; expected <control.velocity3d robot=\"drone\"/> and "
             "<control.path3d robot=\"drone\" path=\"...\"/>\n");
+}
+
+TEST(FirstHour, ASpeedThatIsFarBeyondTheDrive) {
+  const auto at = [](const std::string& v) {
+    return warnings_of(rover + "<physics.planar/><robots.drive/><control.steady robot=\"rover\" v=\"" + v + "\"/>");
+  };
+  EXPECT_EQ(
+      at("3"),
+      "warning: world.xml:2:1: robot 'rover' is asked for 3 m/s, and its drive reaches 1 m/s (max_speed 20 rad/s, "
+      "wheels of radius 0.05 m); expected a lower speed of its controller, or max_speed=\"60\" in its description; "
+      "is that in m/s there?\n");
+  EXPECT_EQ(at("-1.9"), "");
 }
 
 TEST(FirstHour, AControllerWithoutPhysics) {

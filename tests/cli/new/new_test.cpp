@@ -61,6 +61,20 @@ TEST(New, AnUnknownKindIsRefusedWithTheNearestOne) {
   EXPECT_FALSE(fs::exists(folder.path() / "mine"));
 }
 
+TEST(New, ANameThatHasItsKindAlready) {
+  const ProgramFolder folder;
+  for (const std::string name : {"control.follow", "control_follow", "controller.follow", "ControlFollow"})
+    expect_error(
+        folder.muster({"new", "controller", name}), 2,
+        "\"" + name +
+            "\" has its kind in it, which is put before the name; expected muster new controller follow, which "
+            "makes control.follow");
+  expect_error(folder.muster({"new", "radio", "radio.range_loss"}), 2,
+               "\"radio.range_loss\" has its kind in it, which is put before the name; expected muster new radio "
+               "range_loss, which makes radio.range_loss");
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
 TEST(New, ANameThatNoPluginCanHaveIsRefusedWithTheNearestOne) {
   const ProgramFolder folder;
   const std::string expected =

@@ -55,7 +55,7 @@ TEST(Clock, ARowNumberIsNoClock) {
   EXPECT_EQ(complaint([] {
               at_times({"0", "0", "1", "1"}, "t");
             }),
-            "d.csv:1:1: column \"t\" has the wrong unit; expected \"t[s]\"");
+            "d.csv:1:1: column \"t\" has no unit; expected \"t[s]\"");
 }
 
 TEST(Clock, AWildStampIsToldByItsRow) {

@@ -142,7 +142,10 @@ TEST(Import, WhatDoesNotFitIsNamed) {
   EXPECT_NE(failing(wide_map).find("has no row whose \"id\" is \"2\""), std::string::npos);
   EXPECT_NE(failing("rssi[dBm] = rsi_1\n").find("did you mean \"rssi_1\"?"), std::string::npos);
   EXPECT_EQ(failing("rssi[dBm] rssi_1\n"), "m.map:1: \"rssi[dBm] rssi_1\" has no '='; expected COLUMN[UNIT] = RULE");
-  EXPECT_EQ(failing("x[m] = 0,001*px\n"), "m.map:1: \"0,001\" is not a number; a decimal point is written '.'");
+  EXPECT_EQ(
+      failing("x[m] = 0,001*px\n"),
+      "m.map:1: \"0,001\" is not a number; a decimal point is written '.'; expected SCALE*COLUMN + OFFSET, such as "
+      "0.001*ms + 0.5");
   EXPECT_EQ(failing("x[m] = px\nx[m] = py\n"), "m.map:2: column \"x\" is mapped twice");
   EXPECT_EQ(failing("# nothing\n"), "m.map: no column is mapped; expected lines such as rssi[dBm] = rssi");
 }

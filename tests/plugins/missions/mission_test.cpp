@@ -205,8 +205,14 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(refused("<go_to at='1 2' with='3'/>"),
             "2:17: <go_to> has no attribute \"with\"; expected one of at, heading, within, patience; did you mean "
             "\"within\"?");
+  EXPECT_EQ(
+      refused("<wait seconds='2min'/>"),
+      "2:16: attribute \"seconds\": \"2min\" is not a number; \"min\" follows the number; expected a number from 0 to "
+      "1e+09 s; 2min are 120 s");
+  EXPECT_THAT(refused("<keep_link to='base' above='60'/>"),
+              testing::HasSubstr("60 is out of bounds; expected a number from -200 to 50 dBm; is a minus missing?"));
   EXPECT_EQ(refused("<wait seconds='soon'/>"),
-            "2:16: attribute \"seconds\": \"soon\" is not a number; expected a number from 0 to 1e+09");
+            "2:16: attribute \"seconds\": \"soon\" is not a number; expected a number from 0 to 1e+09 s");
   EXPECT_EQ(
       refused("<wait/>"),
       "2:1: <wait> has no attribute \"message\", which it needs; expected seconds=\"...\", or the text of a message");

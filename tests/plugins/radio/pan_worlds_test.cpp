@@ -158,8 +158,12 @@ TEST_F(PanWorld, WhatIsDeclaredWronglyIsTold) {
             "world.xml:2:1: <radio.pan> has no attribute \"radios\", which it needs; expected a text");
   EXPECT_EQ(error_of(pan("p", "1", "a bb")),
             at + "claims a row of radio called \"bb\"; expected one of a, b, c, d; did you mean \"b\"?");
-  EXPECT_EQ(error_of(pan("p", "1", " ")), at + "radios: there is none; expected names of radios");
-  EXPECT_EQ(error_of(pan("p", "1", "a b a")), at + "radios: \"a\" stands there twice");
+  EXPECT_EQ(error_of(pan("p", "1", " ")),
+            "world.xml:2:36: attribute \"radios\": there is none; expected names of radios");
+  EXPECT_EQ(error_of(pan("p", "1", "a b a")), "world.xml:2:36: attribute \"radios\": \"a\" stands there twice");
+  EXPECT_EQ(
+      error_of(pan("p", "1", "a,b")),
+      "world.xml:2:36: attribute \"radios\": \"a,b\" has commas between its names; expected blanks: radios=\"a b\"");
   EXPECT_THAT(error_of(pan("p", "1", "a b") + pan("q", "2", "b c")),
               testing::MatchesRegex("world.xml:3:1: q .radio.pan.: writes \"radio/b/pan\"; so does .*world.xml:2:1: p "
                                     ".radio.pan.; expected one of the two"));

@@ -158,8 +158,8 @@ TEST(MeshWorld, SaysWhatIsWrong) {
             "world.xml:5:19: meshes (radio.meshes): mesh \"m\": the file \"/pillar.obj\" is outside the "
             "allowed folder; expected a path relative to .");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"pillar.obj\" material=\"stone\" scale=\"1000\"/>"),
-            "world.xml:5:19: meshes (radio.meshes): mesh \"m\" reaches beyond 1 km; "
-            "is its scale right?");
+            "world.xml:5:19: meshes (radio.meshes): mesh \"m\" reaches beyond 1 km; is its "
+            "file in millimetres? expected scale=\"1\"");
   EXPECT_EQ(refusal("<mesh name=\"m\" file=\"pillar.obj\" material=\"granite\"/>"),
             "world.xml:3:44: no material is called \"granite\"; expected one of stone, tin");
   EXPECT_EQ(refusal("<mesh name=\"m\" material=\"stone\"/>"),

@@ -150,11 +150,11 @@ TEST(AntennaWorld, SaysWhatIsWrong) {
   EXPECT_EQ(refusal("<radio.antenna pattern=\"table\" file=\"phase.csv\"/>"),
             "phase.csv:1:39: column \"phase\" means nothing here; expected one of azimuth, elevation, gain");
   EXPECT_EQ(refusal("<radio.antenna file=\"full.csv\"/>"),
-            "world.xml:4:1: radio.antenna (radio.antenna): attribute \"file\": only pattern=\"table\" reads "
+            "world.xml:4:22: attribute \"file\": only pattern=\"table\" reads "
             "one");
   EXPECT_EQ(
       refusal("<radio.antenna pattern=\"table\" file=\"full.csv\"/>"),
-      "world.xml:4:1: radio.antenna (radio.antenna): attribute \"file\": it "
+      "world.xml:4:38: attribute \"file\": it "
       "radiates more than it is fed: its mean gain over all directions is 3.000 dBi; expected at most 0, or 0.5 for "
       "errors of calibration");
   EXPECT_EQ(

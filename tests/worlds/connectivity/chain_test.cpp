@@ -21,15 +21,19 @@ std::string refusal(const std::string& chain, const std::string& second = "b") {
 }
 
 TEST(Chain, NamesEachRadioOnce) {
-  const std::string begin = "world.xml:2:1: observe.chain (observe.chain): ";
+  const std::string begin = "world.xml:2:23: attribute \"chain\": ";
   const std::string end = "; expected each radio once, from the nearest to the base to the furthest";
-  EXPECT_EQ(refusal("a b a"), begin + "chain=\"a b a\" names \"a\" twice" + end);
-  EXPECT_EQ(refusal("a b b"), begin + "chain=\"a b b\" names \"b\" twice" + end);
-  EXPECT_EQ(refusal("a a"), begin + "chain=\"a a\" names \"a\" twice" + end);
-  EXPECT_EQ(refusal("a, b"),
-            begin + "chain: \"a,\" is no radio of this world; names stand between blanks, without commas");
+  EXPECT_EQ(refusal("a b a"), begin + "\"a b a\" names \"a\" twice" + end);
+  EXPECT_EQ(refusal("a b b"), begin + "\"a b b\" names \"b\" twice" + end);
+  EXPECT_EQ(refusal("a a"), begin + "\"a a\" names \"a\" twice" + end);
+  EXPECT_EQ(refusal("a, b"), begin + "\"a, b\" has commas between its names; expected blanks: chain=\"a b\"");
+  EXPECT_EQ(refusal("a,b"), begin + "\"a,b\" has commas between its names; expected blanks: chain=\"a b\"");
+  EXPECT_EQ(refusal("a d"), begin + "no radio is called \"d\"; expected some of a, b, c.1");
+  EXPECT_EQ(refusal("a"), begin +
+                              "\"a\" has no link; expected two names or more, with blanks between, from the base "
+                              "outwards");
   EXPECT_EQ(refusal("a c-1 c.1", "c-1"),
-            begin + "chain: both \"c-1\" and \"c.1\" would give the column level_c_1; rename one of these radios");
+            begin + "both \"c-1\" and \"c.1\" would give the column level_c_1; rename one of these radios");
   EXPECT_EQ(refusal("a b c.1"), "not refused");
 }
 
