@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "text/comma_list.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/unit_words.hpp"
@@ -56,6 +57,9 @@ World world_of(const std::string& path, const RunOptions& words) {
       throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
     world.seed = static_cast<uint64_t>(*seed);
   }
+  for (const auto& table : words.record)
+    if (const std::string each = once_each("--record", table); !each.empty())
+      throw Error(Exit::invalid_input, "--record takes one table each time; expected " + each);
   for (const auto& table : words.record) world.records.push_back({table, 1, {"--record"}});
   if (!words.record.empty() && words.out.empty() && !words.has_log)
     throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
@@ -111,6 +115,9 @@ void set_parameters(Simulation& run, const std::vector<std::string>& given) {
     const auto equals = one.find('=');
     if (equals == std::string::npos)
       throw Error(Exit::invalid_input, "--set " + quote(one) + ": expected PATH=VALUE, without blanks");
+    if (const auto comma = one.find(',', equals);
+        comma != std::string::npos && one.find('=', comma) != std::string::npos)
+      throw Error(Exit::invalid_input, "--set takes one parameter each time; expected " + once_each("--set", one));
     const std::string path = one.substr(0, equals);
     if (!seen.insert(path).second)
       throw Error(Exit::invalid_input, "--set: " + path + " is given more than once; expected one value");

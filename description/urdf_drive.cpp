@@ -130,7 +130,20 @@ double share(const Source& source, const XMLElement& element, const char* attrib
 // Indices of the joints that an attribute names, with blanks between.
 std::vector<std::size_t> find_joints(const Source& source, const XMLElement& element, const char* attribute,
                                      const Robot& robot) {
-  std::istringstream words(required(source, element, attribute));
+  std::string text = required(source, element, attribute);
+  const bool is_in_names = std::any_of(robot.joints.begin(), robot.joints.end(),
+                                       [](const Joint& joint) { return joint.name.find(',') != joint.name.npos; });
+  if (text.find(',') != text.npos && !is_in_names) {
+    const std::string given = text;
+    std::replace(text.begin(), text.end(), ',', ' ');
+    std::string meant;
+    std::istringstream parts(text);
+    for (std::string name; parts >> name;) meant += (meant.empty() ? "" : " ") + name;
+    source.fail(element.GetLineNum(), tag(element) + attribute + "=\"" + given +
+                                          "\" has commas between its joints; expected blanks: " + attribute + "=\"" +
+                                          meant + '"');
+  }
+  std::istringstream words(text);
   std::vector<std::size_t> result;
   for (std::string name; words >> name;) {
     result.push_back(find_named(source, element, attribute, name, robot));

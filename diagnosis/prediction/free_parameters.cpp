@@ -1,7 +1,9 @@
 #include "diagnosis/prediction/free_parameters.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "text/comma_list.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_file/params.hpp"
@@ -53,6 +55,11 @@ void refuse_unfit(const ParameterInfo& info, const MeasuredWorld& model) {
 }  // namespace
 
 std::vector<FitParameter> free_parameters(MeasuredWorld& model, const FitOptions& options) {
+  for (const auto& [option, paths] : {std::pair("--free", options.free), {"--fix", options.fix}}) {
+    for (const std::string& path : paths)
+      if (const std::string each = once_each(option, path); !each.empty())
+        throw Error(Exit::invalid_input, std::string(option) + " takes one parameter each time; expected " + each);
+  }
   const std::vector<std::string> held = held_paths(model, options.fix);
   for (const std::string& path : options.free) {
     refuse_unfit(model.parameter(path), model);

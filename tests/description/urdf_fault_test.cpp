@@ -250,6 +250,9 @@ const Case cases[] = {
     {"wheel_radius_contradicts_sphere", wheels(good, "0 1 0", "0.1", round("<sphere radius='0.04'/>", "0 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
      "of 0.04; expected wheel_radius=\"0.04\""},
+    {"joints_with_commas",
+     wheels("left='jl,jk' right='jr' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> left=\"jl,jk\" has commas between its joints; expected blanks: left=\"jl jk\""},
     {"wheel_radius_is_the_diameter",
      wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.025' length='0.02'/>", "1.5708 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "

@@ -119,6 +119,14 @@ TEST(CommandWords, AnAttributeAsAnOption) {
               HasSubstr("; did you mean \"--until\"? expected"));
 }
 
+TEST(CommandWords, ListsWithCommas) {
+  EXPECT_EQ(said_beside_a_channel({"run", "lab", "--set", "channel/n=2,channel/l0=40"}),
+            "muster: error: --set takes one parameter each time; expected --set channel/n=2 --set channel/l0=40\n");
+  EXPECT_EQ(
+      said_beside_a_channel({"run", "lab", "--out", "o", "--record", "robot/*/pose,radio/*/traffic"}),
+      "muster: error: --record takes one table each time; expected --record robot/*/pose --record radio/*/traffic\n");
+}
+
 TEST(CommandWords, AVerbThatIsAnOptionOfRun) {
   EXPECT_EQ(
       words_said_by({"view", "world.xml"}),
@@ -180,6 +188,8 @@ TEST(CommandWords, AParameterWithoutItsInstanceAndOneThatNoFitMoves) {
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_THAT(outcome.err, testing::StartsWith(begin));
   EXPECT_THAT(outcome.err, HasSubstr(", which no fit moves; expected one of "));
+  expect_error(folder.muster({"fit", "world.xml", "--data", data, "--free", "channel/n,channel/l0"}), 2,
+               "--free takes one parameter each time; expected --free channel/n --free channel/l0");
   EXPECT_THAT(outcome.err, HasSubstr("channel/l0, channel/n ("));
   EXPECT_THAT(outcome.err, testing::Not(HasSubstr(", channel/model")));
 }
