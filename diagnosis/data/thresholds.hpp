@@ -26,7 +26,8 @@ inline constexpr std::size_t most_powers = 32;
 inline constexpr double least_span_of_powers = 6;
 // readings; for each power; chosen; none
 inline constexpr long readings_a_power = 10;
-// share; of the span by which levels may be off the powers, root of the mean square; chosen; SentPower.*
+// share; of the span by which levels may be off the powers, root of the mean square; chosen;
+// SentPower.ErrorsOfPowersAreNoPowers
 inline constexpr double off_the_power = 0.12;
 
 // clocks

@@ -202,7 +202,8 @@ inline constexpr double scatter_alpha = 1e-4;
 inline constexpr double field_alpha = 0.002;
 // nats; log p required of blockage beside other misfits; chosen; none
 inline constexpr double blockage_in_company = -9;
-// lambda; of blockage that keeps its name beside a cause of more evidence; chosen; RealData.EachSetIsToldAsItWas
+// lambda; of blockage that keeps its name beside a cause of more evidence; chosen;
+// RadioField.IsAsOtherEvidenceSaysAndClaimsNothingThatHeldOutDataRefute
 inline constexpr double sure_blockage = 30;
 // dB; within which a stage of the world already clips there; chosen; none
 inline constexpr double same_clip = 0.5;
