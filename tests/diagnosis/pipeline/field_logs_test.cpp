@@ -57,6 +57,30 @@ TEST(FieldLog, AnOffsetOfARadioThatTheWorldDoesNotList) {
   EXPECT_EQ(LinkModel(extended, data, plugins).added_radios(), (std::vector<std::string>{"phone1", "phone3"}));
 }
 
+// A shift is one in the list of all radios that stand, in the order in which they were found, also where the data alone
+// name them.
+TEST(FieldLog, AShiftedListIsWrittenWholeAndInItsOrder) {
+  const Scratch scratch, out;
+  const auto world = world_of(scratch, "world.xml", "<station name=\"s\" at=\"0 0 1\"/>");
+  CauseEstimate shifted;
+  shifted.id = "effect.labels_shifted";
+  shifted.row_parameter = "first";
+  shifted.row = "m2";
+  shifted.covariates = {"map"};
+  shifted.status = inference::Status::named;
+  Diagnosis found;
+  found.causes = {shifted};
+  found.added_radios = {{"car", 5, 5, 1, false}, {"m1", 1, 0, 1, true}, {"m2", 2, 0, 1, true}, {"m3", 3, 0, 1, true}};
+  std::ifstream in(write_extended_world(found, world, out / "w"));
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::size_t at = 0;
+  for (const char* next : {"name=\"s\"", "name=\"m1\"", "name=\"m2\"", "name=\"m3\"", "effect.labels_shifted"}) {
+    at = text.find(next, at);
+    ASSERT_NE(at, text.npos) << next << " in\n" << text;
+  }
+  EXPECT_EQ(text.find("car"), text.npos);
+}
+
 // A station eleven metres from where the map has it, at the other end of the flat.
 TEST(FieldLog, AStationFarFromItsPlaceOnTheMap) {
   const Scratch scratch;
