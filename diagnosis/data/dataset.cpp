@@ -93,6 +93,35 @@ void read_covariates(Dataset& data) {
   }
 }
 
+// m; a height that is unknown at either end is left out.
+std::vector<double> distances_of(const Dataset& data) {
+  if (!data.has_places()) return data.table->reals(data.table->require("distance", "m"));
+  std::vector<double> result;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    const Point &a = data.tx_at[i], &b = data.rx_at[i];
+    const double up = std::isnan(a[2] - b[2]) ? 0 : a[2] - b[2];
+    result.push_back(std::hypot(a[0] - b[0], a[1] - b[1], up));
+  }
+  return result;
+}
+
+// Refers readings to the middle of the powers in the column power[dBm] where they follow it, and notes it.
+void refer_to_one_power(Dataset& data) {
+  const auto power = std::find_if(data.covariates.begin(), data.covariates.end(),
+                                  [](const Covariate& c) { return c.name == "power[dBm]" && !c.values.empty(); });
+  if (power == data.covariates.end() || data.reading != "rssi") return;
+  PoweredReadings readings{{}, distances_of(data), power->values, data.rssi};
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    readings.link.push_back(data.tx.level[i] * data.rx.levels.size() + data.rx.level[i]);
+  const auto sent = followed_power(readings);
+  if (!sent) return;
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    if (std::isfinite(power->values[i])) data.rssi[i] -= power->values[i] - sent->middle;
+  data.notes.push_back("levels rise by " + print_real(std::round(100 * sent->rise) / 100) + " dB for each dB of " +
+                       quote(power->name) + ": they are what was received, and are referred to a power of " +
+                       print_real(sent->middle) + " dBm, the middle of those set");
+}
+
 // The first column that is a latitude or a longitude, of a table without places in metres; else none.
 std::optional<std::size_t> column_of_degrees(const TextTable& table) {
   static const std::set<std::string> words = {"lat", "lon", "lng", "long", "latitude", "longitude"};

@@ -1,13 +1,13 @@
 // Readings at several powers of one radio: as received, or referred to a nominal power.
-#include "diagnosis/data/sent_power.hpp"
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
 #include <sstream>
 
+#include "diagnosis/data/dataset.hpp"
 #include "tests/diagnosis/scratch.hpp"
 
 namespace muster::diagnosis {
