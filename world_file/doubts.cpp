@@ -26,7 +26,7 @@ struct Shape {
   double height() const { return cells[5]; }
 };
 
-std::vector<Shape> walls_of(const World& world) {
+std::vector<Shape> shapes_of(const World& world) {
   std::vector<Shape> result;
   for (const auto& row : world.rows) {
     if (row.set != "wall") continue;
@@ -47,7 +47,7 @@ std::vector<double> numbers(const XmlElement& element, const char* name, std::si
 
 class Doubts {
  public:
-  Doubts(const XmlElement& root, World& world) : root_(root), world_(world), walls_(walls_of(world)) {}
+  Doubts(const XmlElement& root, World& world) : root_(root), world_(world), walls_(shapes_of(world)) {}
 
   void look() {
     look_at_tick();

@@ -227,11 +227,11 @@ inline constexpr double grazing = 0.005;
 // dB; change aside from which a grazing reading is left out, half a unit of RSSI; chosen; GrazingLinks.AreNoOutliers
 inline constexpr double grazing_change = 0.5;
 // m; by which walls or places may be off: where that decides which walls are crossed, a law that adds draws must gain
-// no more than elsewhere; chosen; GrazingLinks.PlacesThatAreOffMakeNoOutliers
+// no more than elsewhere; chosen; none
 inline constexpr double places_off[] = {0.1, 0.3, 1};
 // share; of the readings, of which that is not so, on which it can be seen; chosen; none
 inline constexpr double least_clear = 0.3;
-// share; of the gain in proportion that it keeps there; chosen; GrazingLinks.PlacesThatAreOffMakeNoOutliers
+// share; of the gain in proportion that it keeps there; chosen; none
 inline constexpr double in_proportion = 0.25;
 
 // laws: fading
