@@ -1,0 +1,53 @@
+// Surveys as people make them, of the exam's generators, in which something was once told wrongly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "tests/diagnosis/pipeline/flat.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+Diagnosis diagnosed(const std::string& options, int number) {
+  const Scratch scratch;
+  const auto world = made_case(scratch, options, number);
+  return diagnose(world, world / "measured.csv", plugins);
+}
+
+bool names(const Diagnosis& found, const std::string& id) {
+  return std::any_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) { return c.id == id; });
+}
+
+// What a receiver compresses scatters less where it is strong: a law of fading of lambda 89 was named.
+TEST(Survey, ScatterThatFallsWithTheLevelIsNoLawOfFading) {
+  const Diagnosis found = diagnosed("--generator field --seed 11303", 8);
+  EXPECT_FALSE(names(found, "effect.fading_law")) << names_in_words(named_causes(found));
+  const auto says = [](const std::string& note) { return note.find("where levels are low and by") != note.npos; };
+  EXPECT_TRUE(std::any_of(found.notes.begin(), found.notes.end(), says));
+}
+
+// A steep field in exact readings: outliers of lambda 316 were named.
+TEST(Survey, TailsOfTheFieldAreNoOutliers) {
+  const Diagnosis found = diagnosed("--generator run --seed 99503 --mix clean", 5);
+  EXPECT_STREQ(found.verdict(), "adequate") << names_in_words(named_causes(found));
+}
+
+// The mirrored plan had to be likelier alone than a sender's change that is true beside it.
+TEST(Survey, AMirroredPlanIsFoundBesideAnotherCause) {
+  const Diagnosis found = diagnosed("--generator field --seed 11301", 4);
+  EXPECT_TRUE(names(found, "effect.plan_turned")) << names_in_words(named_causes(found));
+  EXPECT_EQ(found.causes.size(), 2u);
+}
+
+// Only the data name the masts: the corrected world had another order of them, and its error did not fall.
+TEST(Survey, AShiftAmongRadiosOfTheDataIsCorrected) {
+  const Diagnosis found = diagnosed("--generator field --seed 11301", 1);
+  ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
+  EXPECT_EQ(found.causes[0].id, "effect.labels_shifted");
+  ASSERT_TRUE(found.unseen);
+  EXPECT_LT(found.unseen->after.mean(), 0.6 * found.unseen->before.mean());
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
