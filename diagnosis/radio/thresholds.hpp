@@ -254,7 +254,8 @@ inline constexpr double averaged_choices = 5;
 inline constexpr double contradiction_nats = 2;
 // standard deviations; of two readings, by which adjacent ones differ that heavy tails have drawn; chosen; none
 inline constexpr double far_apart = 4;
-// share; of the standard deviation of what heavy tails draw, by which such pairs differ at least; chosen; none
+// share; of the standard deviation of what heavy tails draw, by which such pairs differ at least; chosen;
+// Survey.TailsOfTheFieldAreNoOutliers
 inline constexpr double far_in_tails = 0.7;
 // nats; fall of the log-likelihood at the ends of a 95 % interval; derived; FadingTests.MeasuresAnotherFading
 inline constexpr double interval_nats = 1.92;
