@@ -56,7 +56,7 @@ std::string doubt_of_length(const XMLElement& element, const char* attribute, do
 // What a radius is to be where the wheel has `real` metres: given in another unit, as a diameter, or merely another.
 std::string doubt_of_radius(const XMLElement& element, double given, double real) {
   constexpr double alike = 0.02;
-  if (const std::string unit = doubt_of_length(element, "wheel_radius", given, real); !unit.empty()) return unit;
+  if (std::string unit = doubt_of_length(element, "wheel_radius", given, real); !unit.empty()) return unit;
   return std::string(std::abs(given - 2 * real) < alike * given ? "; is it the diameter? expected " : "; expected ") +
          "wheel_radius=\"" + print_number(real) + '"';
 }

@@ -96,7 +96,7 @@ std::optional<double> in_unit(std::string_view unit, std::string_view text) {
 }
 
 std::string other_unit_hint(std::string_view unit, std::string_view text) {
-  if (const std::string power = power_hint(unit, text); !power.empty()) return power;
+  if (std::string power = power_hint(unit, text); !power.empty()) return power;
   const auto value = in_unit(unit, text);
   const std::string end = ' ' + std::string(unit);
   if (!value || text.ends_with(end) ||

@@ -193,6 +193,10 @@ inline constexpr double disk_worth = 0.5;
 
 // laws: all
 
+// m; within which two readings of a link are of one place; chosen; none
+inline constexpr double repeats_within = 1e-3;
+// share; of readings that repeat a place where a network stands; chosen; Survey.OutliersInANetworkThatStands
+inline constexpr double repeated_share = 0.9;
 // probability; of a false fading law or blockage in a clean world; chosen; CleanCase.IsSilent
 inline constexpr double law_alpha = 0.0005;
 // probability; of a dependence of scatter on level where there is none; chosen;
@@ -302,6 +306,20 @@ inline constexpr double usual_misfit = 2;
 inline constexpr double flipped_times = 3;
 // nats; ratio below which no shuffled null can be significant; chosen; none
 inline constexpr double promising_blockage = 3;
+// links; of each of its radios, beside a link that is tested for people who walk about; chosen;
+// WalkersTest.WhatARadioSharesIsNoWalker
+inline constexpr std::size_t fewest_other_links = 3;
+// s; to either side, within which readings are of one moment; chosen; WalkersTest.WhatARadioSharesIsNoWalker
+inline constexpr double same_moment = 1;
+// s; apart at most, two readings of a link that one crossing may concern; chosen; none
+inline constexpr double crossing_reach = 3;
+// s; apart at least, two readings that share slow changes alone, and longest crossing; chosen;
+// WalkersTest.SlowChangesAreNoWalker
+inline constexpr double slow_change = 10;
+// standard deviations; at which a reading is cut for the moments of crossings; chosen; none
+inline constexpr double farthest_blocked = 8;
+// dB; least loss of people who walk about: levels of a network with nobody about swing by less; chosen; none
+inline constexpr double least_walker_loss = 2;
 // durations of a crossing; to either side, over which a running median is taken; chosen;
 // LikelyBlocked.ALastingChangeOfLevelIsNoCrossing
 inline constexpr double median_reach = 8;
@@ -345,7 +363,7 @@ inline constexpr double law_few_share = 0.75;
 
 // share; of the largest effect, from which it reaches a row; chosen; none
 inline constexpr double reached = 0.2;
-// m; between places of a radio that stands; chosen; none
+// m; between places of a radio that stands; chosen; WalkersTest.LinksOfAWalkTakeNoPart
 inline constexpr double stands_within = 0.2;
 // ratio; of the farthest distance to the nearest one, below which it is known; chosen;
 // SecondStation.NothingIsOpenIfTheDistanceIsKnown

@@ -29,6 +29,8 @@ std::string plain(double value, int decimals) {
   return zero && text[0] == '-' ? text.substr(1) : text;
 }
 
+const std::string all_radios = "all radios";
+
 // What stands in a sentence for `slot`: "offset", or "offset|too high|too low", of which one is said by the sign.
 std::string slot_value(const CauseEstimate& cause, const std::string& slot) {
   const auto bar = slot.find('|'), next = slot.find('|', bar + 1);
@@ -40,7 +42,7 @@ std::string slot_value(const CauseEstimate& cause, const std::string& slot) {
     return quantity(v) + ' ' + (less ? slot.substr(next + 1) : slot.substr(bar + 1, next - bar - 1));
   }
   if (const auto other = cause.words.find(slot); other != cause.words.end()) return other->second;
-  return cause.row.empty() ? "all radios" : cause.row;
+  return cause.row.empty() ? all_radios : cause.row;
 }
 
 // Each covariate once.
@@ -153,7 +155,8 @@ std::string sentence(const CauseEstimate& cause) {
       text += cause.title[k];
       continue;
     }
-    text += slot_value(cause, cause.title.substr(k + 1, end - k - 1));
+    const std::string value = slot_value(cause, cause.title.substr(k + 1, end - k - 1));
+    text += value == all_radios && text.find(value) != text.npos ? "each other" : value;
     k = end;
   }
   return text;

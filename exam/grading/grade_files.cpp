@@ -148,15 +148,17 @@ Verdict read_verdict(const std::string& text) {
   }
 }
 
+namespace {
+
 // Throws std::invalid_argument with the file.
-static Truth truth_in(const fs::path& file) try {
-  return read_truth(read_file(file));
-} catch (const json::parse_error& e) {
+Truth truth_in(const fs::path& file) try { return read_truth(read_file(file)); } catch (const json::parse_error& e) {
   throw std::invalid_argument(fmt::format(
       "{}: is no JSON from byte {} on; expected an answer that muster exam make wrote", file.string(), e.byte));
 } catch (const json::exception&) {
   throw std::invalid_argument(file.string() + ": lacks what an answer has; expected one that muster exam make wrote");
 }
+
+}  // namespace
 
 Grades grade(const fs::path& answers, const fs::path& reports) {
   std::vector<fs::path> files;

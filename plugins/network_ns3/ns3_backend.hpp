@@ -37,7 +37,8 @@ class Ns3Backend : public Backend {
 
   void request(Request request) final {
     const auto node = static_cast<std::uint32_t>(request.from);
-    ns3::Simulator::ScheduleWithContext(node, air_.until(request.at),
+    const auto delay = air_.until(request.at);
+    ns3::Simulator::ScheduleWithContext(node, delay,
                                         [this, request = std::move(request)]() mutable { take(std::move(request)); });
   }
 

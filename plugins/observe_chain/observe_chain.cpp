@@ -64,7 +64,7 @@ struct ObserveChain {
   }
 
   static std::vector<std::string> names_of(const Setup& s) {
-    const std::vector<std::string> result = names_in(s.host(), "chain");
+    std::vector<std::string> result = names_in(s.host(), "chain");
     const std::string given = "attribute \"chain\": \"" + s.text("chain") + "\"";
     if (result.size() < 2)
       throw BadInput(given + " has no link; expected two names or more, with blanks between, from the base outwards");

@@ -173,7 +173,7 @@ CloseReadings KrigedReadings::close_readings() const {
   }
   const auto pairs = static_cast<Index>(half.size());
   const VectorXd differences = (2 * Eigen::Map<const Eigen::ArrayXd>(half.data(), pairs)).sqrt();
-  const CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences, first};
+  CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences, first};
   if (pairs < thresholds::fewest_pairs) return nothing;
   const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
   const Eigen::Map<const VectorXd> y(half.data(), pairs);

@@ -10,10 +10,12 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/scatter_by_level.hpp"
 #include "diagnosis/radio/laws/shadowing_test.hpp"
+#include "diagnosis/radio/laws/standing_links_test.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
@@ -79,6 +81,22 @@ VectorXd drawn_anew(const LawSources& s, const LawPart& law, VectorXd residual) 
       residual[i] = std::nan("");
   }
   return residual;
+}
+
+// True where nearly all readings of a link are of one place, as those of a standing network: what is drawn by place is
+// the same in all of them.
+bool repeat_places(const LinkReadings& r) {
+  std::map<std::pair<int, int>, Index> last;  // by link
+  Index repeated = 0;
+  for (Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const auto [at, first] = last.try_emplace({r.tx[k], r.rx[k]}, i);
+    const Index before = std::exchange(at->second, i);
+    repeated +=
+        !first && (r.rx_at.col(i) - r.rx_at.col(before)).norm() + (r.tx_at.col(i) - r.tx_at.col(before)).norm() <
+                      thresholds::repeats_within;
+  }
+  return static_cast<double>(repeated) > thresholds::repeated_share * static_cast<double>(r.size());
 }
 
 // Reason why single readings are not testable; empty if they are.
@@ -150,8 +168,7 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
       law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance, unsure(s, residual));
   const auto best = tests.begin();
   if (likeliest.noise > 0)
-    found.notes.push_back(fmt::format(
-        "single readings scatter by {:.1f} dB, as normal noise does; the world states none", likeliest.noise));
+    found.notes.push_back("single readings scatter as normal noise does, of which the world states none");
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
   if (!stated.base.law && replaces(s, best->cause)) return best->law;  // it contradicts nothing
   if (const std::string why = replaces(s, best->cause) ? of_receiver(s, residual, field, found) : ""; !why.empty()) {
@@ -268,21 +285,27 @@ const std::string shared = "not testable: readings of one place share a part of 
 
 // Runs the tests on single readings in turn. Where the world states no law, normal noise and every law that could
 // replace another are the null: what adds outliers must be likelier.
-void add_laws_of_readings(const LawSources& s, const VectorXd& all, Diagnosis& found) {
-  const ReadingDistribution stated = stated_law(s.model);
-  const VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
+// `why`: they are not testable; empty if they are.
+void add_laws_of_readings(const LawSources& s, const VectorXd& all, std::string why, Diagnosis& found) {
+  ReadingDistribution stated = stated_law(s.model);
+  VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
+  std::string of_base = stated.base.law ? "" : "not testable: no plugin of the world states a law of readings";
+  if (stated.base.law && finite(anew) < thresholds::fewest_law_readings && repeat_places(s.readings)) {
+    of_base = why_not(s, anew);  // one draw a link belongs to the field; what single readings do beside it is testable
+    stated.base = {};
+    anew = all;
+  }
   std::vector<std::string> notes;
   std::optional<KrigedReadings> field;
   VectorXd residual;
-  std::string why = why_not(s, anew);
+  if (why.empty()) why = why_not(s, anew);
   if (why.empty()) {
     residual = without_grazing(s, anew, notes);
     field = kriged(s, residual);
     if (static_cast<Index>(field->judged().size()) < thresholds::fewest_law_readings)
       why = shared + ", and fewer than 300 repeat another one";
   }
-  const std::string of_stated =
-      !why.empty() || stated.base.law ? why : "not testable: no plugin of the world states a law of readings";
+  const std::string of_stated = !why.empty() || of_base.empty() ? why : of_base;
   for (const bool replacing : {false, true})
     add_tested(causes_that(s,
                            [&](const Cause& c) {
@@ -308,17 +331,50 @@ bool all_changes_in_time(const Diagnosis& found) {
          std::all_of(found.unexplained.begin(), found.unexplained.end(), in_time);
 }
 
-// Names the blocked link and returns its radios; none if there is none.
-std::set<std::string> add_blockage(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
+// What people who cross links leave to the tests of single readings.
+struct Crossed {
+  std::set<std::string> link;  // ends of the one that is blocked now and then; none if no one is
+  bool all = false;            // they may cross any link
+};
+
+// What the world states of people.
+std::optional<Crossed> stated_crossings(const LinkModel& model) {
+  std::optional<Crossed> result;
+  for (const auto& instance : model.simulation().instances()) {
+    const muster_burst* const burst = instance->plugin().burst;
+    if (!burst) continue;
+    if (!result) result.emplace();
+    const auto& given = instance->declared().attributes;
+    result->all |= std::none_of(given.begin(), given.end(),
+                                [&](const XmlAttribute& a) { return a.name == burst->one || a.name == burst->other; });
+  }
+  return result;
+}
+
+CauseEstimate& add_crossings(const LawSources& s, const std::vector<const Cause*>& causes, LawTest test,
+                             Diagnosis& found) {
+  const muster_burst& burst = *causes.front()->plugin->burst;
+  const std::array names{burst.loss, burst.share, burst.duration};
+  for (std::size_t k = 0; k < names.size(); ++k) test.values[k].name = names[k];
+  return add_named(s, causes, test, found);
+}
+
+// Names the blocked link, or people who walk about in a standing network.
+Crossed add_blockage(const LawSources& s, const VectorXd& residual, Diagnosis& found) {
   const std::vector<const Cause*> causes =
       causes_that(s, [](const Cause& c) { return c.meaning().kind == MUSTER_LAW && c.plugin->burst; });
   if (causes.empty()) return {};
-  const auto& instances = s.model.simulation().instances();
-  const bool stated =
-      std::any_of(instances.begin(), instances.end(), [](const auto& i) { return i->plugin().burst != nullptr; });
+  const std::optional<Crossed> stated = stated_crossings(s.model);
   if (s.data.t.empty() || stated) {
     add_tested(causes, s.data.t.empty() ? "not testable: the data have no t" : "", found);
-    return {};
+    return stated && stated->all ? *stated : Crossed();
+  }
+  const WalkersTest walkers = walkers_test(s.readings, residual);
+  if (!walkers.test.values.empty() && walkers.test.values.front().value > thresholds::least_walker_loss &&
+      beyond_chance(walkers.test, thresholds::law_alpha)) {
+    add_tested(causes, "", found);
+    add_crossings(s, causes, walkers.test, found);
+    return {{}, true};
   }
   const Blockage passages = blockage_test(s.state, s.readings, residual.array().isFinite());
   add_tested(causes, passages.links ? "" : "not testable: no link has 40 rows of readings that are no bounds", found);
@@ -326,16 +382,13 @@ std::set<std::string> add_blockage(const LawSources& s, const VectorXd& residual
       (passages.test.log_p > thresholds::blockage_in_company && !all_changes_in_time(found)))
     return {};
   const muster_burst& burst = *causes.front()->plugin->burst;
-  LawTest test = passages.test;
-  const std::array names{burst.loss, burst.share, burst.duration};
-  for (std::size_t k = 0; k < names.size(); ++k) test.values[k].name = names[k];
-  CauseEstimate& out = add_named(s, causes, test, found);
+  CauseEstimate& out = add_crossings(s, causes, passages.test, found);
   out.row_parameter = burst.one;
   out.row = s.model.radio_name(passages.radio);
   const std::string other = out.words[burst.other] = s.model.radio_name(passages.other);
   out.label = "radio/" + out.row + " radio/" + other;
   for (inference::Alternative& alike : out.alternatives) alike.label = out.label;
-  return {out.row, other};
+  return {{out.row, other}};
 }
 
 // Excludes the blocked link, if there is one: its readings follow another law.
@@ -352,8 +405,9 @@ VectorXd without_link(const LawSources& s, const std::set<std::string>& ends, Ve
 
 void add_laws(const LawSources& s, Diagnosis& found) {
   const VectorXd residual = residual_of(s, found);
-  const std::set<std::string> blocked = add_blockage(s, residual, found);
-  add_laws_of_readings(s, without_second_twins(s.readings, s.state.rows(), without_link(s, blocked, residual)), found);
+  const Crossed crossed = add_blockage(s, residual, found);
+  add_laws_of_readings(s, without_second_twins(s.readings, s.state.rows(), without_link(s, crossed.link, residual)),
+                       crossed.all ? "not testable: people who cross the links change readings, too" : "", found);
 }
 
 }  // namespace muster::diagnosis

@@ -20,7 +20,8 @@ TEST(Row44, TheExponentIsToldInBothLogarithms) {
   readings.precision(12);
   readings << "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
   for (int i = 0; i < 200; ++i) {
-    const double x = 1 + 0.4 * (i % 20), y = 0.5 * (i / 20), rssi = -12.9 - 17 * std::log10(std::hypot(x, y));
+    const int row = i / 20;
+    const double x = 1 + 0.4 * (i % 20), y = 0.5 * row, rssi = -12.9 - 17 * std::log10(std::hypot(x, y));
     readings << i << ",a,b,0,0," << x << ',' << y << ',' << rssi << '\n';
   }
   folder.write("data.csv", readings.str());
