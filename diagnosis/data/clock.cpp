@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/data/median.hpp"
 #include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 bool counts_rows(const std::vector<double>& values) {
   if (values.size() < 2 || values[0] != std::round(values[0])) return false;

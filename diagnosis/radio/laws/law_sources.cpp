@@ -1,6 +1,7 @@
 #include "diagnosis/radio/laws/law_sources.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -40,6 +41,11 @@ std::vector<std::shared_ptr<const ReadingLaw>> laws_of_causes(const LawSources& 
   return result;
 }
 
+bool replaces(const LawSources& s, const std::string& cause) {
+  const auto laws = laws_of_causes(s);
+  return std::any_of(laws.begin(), laws.end(), [&](const auto& law) { return law->id() == cause && law->replaces(); });
+}
+
 ReadingDistribution stated_law(const LinkModel& model) {
   ReadingDistribution result;
   for (const auto& instance : model.simulation().instances()) {
@@ -53,6 +59,13 @@ ReadingDistribution stated_law(const LinkModel& model) {
       result.added.push_back(std::move(part));
   }
   return result;
+}
+
+bool beyond_chance(const LawTest& test, double share) { return test.evidence > 0 && test.log_p < std::log(share); }
+
+void add_tested(const std::vector<const Cause*>& causes, const std::string& why_not, Diagnosis& found) {
+  for (const Cause* cause : causes)
+    why_not.empty() ? found.searched.push_back(cause->id) : found.not_tested.push_back(cause->id + ": " + why_not);
 }
 
 CauseEstimate& add_named(const LawSources& s, const std::vector<const Cause*>& alike, const LawTest& test,

@@ -36,8 +36,15 @@ std::vector<const Cause*> causes_that(const LawSources& sources, const Has& has)
 
 // Laws of causes that change single readings.
 std::vector<std::shared_ptr<const ReadingLaw>> laws_of_causes(const LawSources& sources);
+// True for a law that is drawn instead of the stated one, not beside it.
+bool replaces(const LawSources& sources, const std::string& cause);
 // The law of single readings that the world's instances declare.
 ReadingDistribution stated_law(const LinkModel& model);
+
+bool beyond_chance(const LawTest& test, double share);
+
+// Tells of causes that they were tested, or why not.
+void add_tested(const std::vector<const Cause*>& causes, const std::string& why_not, Diagnosis& found);
 
 // Adds the first of several causes with the same declaration. The readings cannot exclude the others: alternatives.
 CauseEstimate& add_named(const LawSources& sources, const std::vector<const Cause*>& alike, const LawTest& test,

@@ -4,18 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/data/median.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
 using State = std::array<double, 2>;  // free, blocked
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Each value less the median of those around it in time.
 std::vector<double> above_running_median(const std::vector<double>& time, const Eigen::VectorXd& values, double reach) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "diagnosis/data/median.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "muster/random.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // One direction of a link: its readings in order of time.
 struct Link {

@@ -199,8 +199,10 @@ TEST(Bounce, StandsAndDrivesWithTheBitsOfPlasticRobots) {
 TEST(Bounce, LongTicksAndRemadeEnginesGiveTheSameBits) {
   const auto after = [](double tick, bool remade) {
     std::vector<RobotState> start;
-    for (int i = 0; i < 9; ++i)
-      start.push_back(moving(0.4 * (i % 3), 0.4 * (i / 3), i, 0.6 - 0.4 * (i % 3), 0.4 - 0.3 * (i / 3)));
+    for (int i = 0; i < 9; ++i) {
+      const int column = i % 3, row = i / 3;
+      start.push_back(moving(0.4 * column, 0.4 * row, i, 0.6 - 0.4 * column, 0.4 - 0.3 * row));
+    }
     const description::Robot sled = elastic_sled(0.8);
     Fleet run(start, sled, Integrator::midpoint, 0.005);
     run.among({wall(-0.4, -2, -0.4, 2, 0.1), wall(1.2, -2, 1.2, 2, 0.1)}, 0.3);

@@ -11,8 +11,11 @@ struct Picture {
   Image head;
   std::vector<float> depth;
   std::vector<unsigned char> colour;
-  float at(int x, int y) const { return depth[static_cast<std::size_t>(y * static_cast<int>(head.width) + x)]; }
-  int red(int x, int y) const { return colour[3 * static_cast<std::size_t>(y * static_cast<int>(head.width) + x)]; }
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(head.width) + static_cast<std::size_t>(x);
+  }
+  float at(int x, int y) const { return depth[pixel(x, y)]; }
+  int red(int x, int y) const { return colour[3 * pixel(x, y)]; }
 };
 
 // Those of the last tick.

@@ -113,12 +113,12 @@ TEST(View, NoPixelIsMissedBetweenFacets) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> off(-0.45, 0.45);
   description::Mesh mesh;
-  const int n = 12;
+  const int n = 12, middle = n / 2;
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
       const bool edge = i == 0 || j == 0 || i == n || j == n;
-      mesh.vertices.emplace_back(3 + 0.2 * off(random), i - n / 2 + (edge ? 0 : off(random)),
-                                 j - n / 2 + 1 + (edge ? 0 : off(random)));
+      mesh.vertices.emplace_back(3 + 0.2 * off(random), i - middle + (edge ? 0 : off(random)),
+                                 j - middle + 1 + (edge ? 0 : off(random)));
     }
   }
   const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };

@@ -1,0 +1,127 @@
+#include "diagnosis/radio/laws/testable_readings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "diagnosis/radio/thresholds.hpp"
+
+namespace muster::diagnosis {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Index tested(const VectorXd& residual) { return residual.array().isFinite().count(); }
+
+VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
+  const noise::Rows& rows = s.state.rows();
+  VectorXd left(static_cast<Index>(s.used.size()));
+  for (Index i = 0; i < left.size(); ++i) {
+    const Index row = s.used[static_cast<std::size_t>(i)];
+    left[i] = s.data.rssi[static_cast<std::size_t>(row)] - found.mean[row];
+  }
+  const VectorXd filled = left.array().isNaN().select(0, left);
+  const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
+  VectorXd result = left + rows.at_readings(shift);
+  if (!s.state.problem().bounds.any()) return result;
+  const double sd = std::sqrt(s.state.fit.covariance.field_variance() + s.state.fit.covariance.reading_variance());
+  const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
+    return clip && side * (clip->level - mean) < thresholds::near_clip * sd;
+  };
+  for (Index i = 0; i < result.size(); ++i) {
+    const double mean = found.mean[s.used[static_cast<std::size_t>(i)]];
+    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < thresholds::near_clip * sd;
+    if (lost || near(found.receiver.top, 1, mean) || near(found.receiver.bottom, -1, mean)) result[i] = std::nan("");
+  }
+  return result;
+}
+
+std::vector<Index> in_order_of_time(const LinkReadings& r) {
+  std::vector<Index> order(static_cast<std::size_t>(r.size()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto time = [&](Index i) { return r.t.empty() ? 0.0 : r.t[static_cast<std::size_t>(i)]; };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return time(a) < time(b); });
+  return order;
+}
+
+VectorXd drawn_anew(const LawSources& s, const LawPart& law, VectorXd residual) {
+  const double apart = law.law->apart(law.params);
+  if (apart == 0) return residual;
+  const LinkReadings& r = s.readings;
+  std::map<std::pair<int, int>, Index> last;  // by link
+  for (const Index i : in_order_of_time(r)) {
+    if (!std::isfinite(residual[i])) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const auto [at, first] = last.try_emplace({r.tx[k], r.rx[k]}, i);
+    if (first) continue;
+    const double way =
+        (r.rx_at.col(i) - r.rx_at.col(at->second)).norm() + (r.tx_at.col(i) - r.tx_at.col(at->second)).norm();
+    if (way > apart)
+      at->second = i;
+    else
+      residual[i] = std::nan("");
+  }
+  return residual;
+}
+
+bool repeat_places(const LinkReadings& r) {
+  std::map<std::pair<int, int>, Index> last;  // by link
+  Index repeated = 0;
+  for (Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const auto [at, first] = last.try_emplace({r.tx[k], r.rx[k]}, i);
+    const Index before = std::exchange(at->second, i);
+    repeated +=
+        !first && (r.rx_at.col(i) - r.rx_at.col(before)).norm() + (r.tx_at.col(i) - r.tx_at.col(before)).norm() <
+                      thresholds::repeats_within;
+  }
+  return static_cast<double>(repeated) > thresholds::repeated_share * static_cast<double>(r.size());
+}
+
+std::string why_not(const LawSources& s, const VectorXd& residual) {
+  if (!s.data.has_places()) return "not testable: the data have no places";
+  if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
+    return "not testable: the two directions of a link share a part of their scatter";
+  if (tested(residual) < thresholds::fewest_law_readings)
+    return "not testable: fewer than 300 readings that are no bounds and farther apart than the way over which fading "
+           "changes";
+  return "";
+}
+
+VectorXd without_grazing(const LawSources& s, const VectorXd& residual, std::vector<std::string>& notes) {
+  const VectorXd unsure = s.model.changes_nearby(thresholds::grazing)(s.used);
+  const auto grazes = unsure.array() > thresholds::grazing_change;
+  if (const Index count = grazes.count())
+    notes.push_back(fmt::format(
+        "{} of {} readings would cross other walls if they were {:.0f} mm off: how single readings scatter is asked "
+        "without them",
+        count, residual.size(), 1000 * thresholds::grazing));
+  return grazes.select(std::nan(""), residual);
+}
+
+VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& rows, VectorXd residual) {
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (rows.is_second_twin(i)) continue;
+    const Index other = readings.twin.empty() ? -1 : readings.twin[static_cast<std::size_t>(i)];
+    if (other < 0) continue;
+    residual[i] = (residual[i] + residual[other]) / 2;
+    residual[other] = std::nan("");
+  }
+  return residual;
+}
+
+VectorXd without_link(const LawSources& s, const std::set<std::string>& ends, VectorXd residual) {
+  const LinkReadings& r = s.readings;
+  for (Index i = 0; i < residual.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (s.model.link_of(r.tx[k], r.rx[k]) == ends) residual[i] = std::nan("");
+  }
+  return residual;
+}
+
+}  // namespace muster::diagnosis
