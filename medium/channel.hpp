@@ -22,6 +22,9 @@ struct Channel {
   const double* rssi_from(std::size_t from) const { return &rssi[from * radios]; }
 };
 
-inline double milliwatts(double dbm) { return std::pow(10, dbm / 10); }
+inline double milliwatts(double dbm) {
+  constexpr double neper = 0.23025850929940457;  // ln(10) / 10: an exponential takes a sixth of the time of a power
+  return std::exp(neper * dbm);
+}
 
 }  // namespace muster::medium

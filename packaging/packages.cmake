@@ -25,7 +25,7 @@ diagnosis names what the world gets wrong.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME muster-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "muster (= ${release}), cmake (>= 3.25), g++, make | ninja-build")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "muster (= ${release}), libsleef-dev, cmake (>= 3.25), g++, make | ninja-build")
 # Of those who link the kernel alone.
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libfmt-dev, libtbb-dev, libtinyxml2-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "files for plugins of muster, and for programs that embed its kernel

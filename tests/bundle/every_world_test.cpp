@@ -1,6 +1,9 @@
 // Every world of the tree: bundled from a copy that is gone when the bundle is checked.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "bundled.hpp"
 #include "tests/worlds/all/world_runs.hpp"
 
@@ -22,6 +25,21 @@ TEST_P(BundledWorld, ComesToTheSameDigestWithoutItsSources) {
   const auto checked = folder.told({"check", "b.tar.zst"});
   EXPECT_EQ(checked["digest"], expected);
   EXPECT_EQ(checked["same"], true);
+}
+
+// Processors of 2008 and 2013: the one has neither fused multiply-add nor wide vectors, the other no AVX-512.
+TEST_P(BundledWorld, ComesToTheSameDigestOnOtherProcessors) {
+  if (std::system("command -v qemu-x86_64 > /dev/null") != 0) GTEST_SKIP() << "needs qemu-user: scripts/setup --peers";
+  const BundleFolder folder;
+  const World world = read_world(place_of(GetParam()), standard());
+  const double until = std::min(2.0, static_cast<double>(world.ticks) * world.dt);
+  folder.told({place_of(GetParam()), "--until", fmt::format("{}", until), "--out", "b.tar.zst"});
+  for (const char* processor : {"Nehalem", "Haswell"}) {
+    const std::string said = folder / "said";
+    const std::string command = fmt::format("qemu-x86_64 -cpu {} {} bundle check {} > {} 2>&1", processor,
+                                            MUSTER_PROGRAM, (folder / "b.tar.zst").string(), said);
+    EXPECT_EQ(std::system(command.c_str()), 0) << processor << '\n' << folder.read("said");
+  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <clocale>
 #include <cstdlib>
 #include <locale>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/cli/errors/program.hpp"
 #include "world_runs.hpp"
@@ -88,6 +90,23 @@ TEST_P(EveryWorld, IsTheSameInTwoProcesses) {
     EXPECT_EQ(outcome.exit, 0) << outcome.err;
     EXPECT_NE(outcome.out.find(expected), outcome.out.npos) << expected << "\n" << outcome.out;
   }
+}
+
+// The C library chooses its elementary functions by the processor: those with fused multiply-add differ in the last
+// bit.
+TEST_P(EveryWorld, IsTheSameWithoutFusedMultiplyAddAndWideVectors) {
+  const World world = read_world(place_of(GetParam()), standard());
+  const double until = std::min(10.0, static_cast<double>(world.ticks) * world.dt);
+  std::set<std::string> digests;
+  for (const char* without : {"", "-FMA", "-FMA,-AVX2,-AVX512F"}) {
+    Surroundings around;
+    around.environment = {std::string("GLIBC_TUNABLES=glibc.cpu.hwcaps=") + without};
+    const auto outcome =
+        run_muster({"run", place_of(GetParam()), "--until", fmt::format("{}", until), "--json"}, around);
+    ASSERT_EQ(outcome.exit, 0) << outcome.err;
+    digests.insert(nlohmann::json::parse(outcome.out).at("digest").get<std::string>());
+  }
+  EXPECT_EQ(digests.size(), 1u) << testing::PrintToString(digests);
 }
 
 }  // namespace
