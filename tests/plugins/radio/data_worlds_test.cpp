@@ -54,7 +54,7 @@ TEST(Data, LinksMovedAsideKeepTheirLengthsAndBearings) {
     EXPECT_NEAR(pose.at(1, axis), to[axis], 1e-12);
     EXPECT_EQ(pose.at(2, axis), 2);  // ends in one place have no left
   }
-  EXPECT_EQ(pose.at(0, 3), std::cos(0.25));
+  EXPECT_DOUBLE_EQ(pose.at(0, 3), std::cos(0.25));
 }
 
 TEST(Data, LinksMovedAlongKeepTheirLengthsAndBearings) {
