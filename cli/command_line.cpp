@@ -160,7 +160,7 @@ std::string parted_by_commas(const Arguments& arguments, const std::string& opti
   const auto given = std::find(arguments.begin(), arguments.end(), option);
   if (given == arguments.end() || std::next(given) == arguments.end()) return "";
   std::string meant, word;
-  long count = 0;
+  std::int64_t count = 0;
   for (const char c : *std::next(given) + ' ') {
     const bool parts = std::string_view(" ,;:").find(c) != std::string_view::npos;
     if (!parts) word += c;
@@ -168,7 +168,7 @@ std::string parted_by_commas(const Arguments& arguments, const std::string& opti
     meant += ' ' + std::exchange(word, "");
     ++count;
   }
-  return std::strtol(words.c_str(), nullptr, 10) == count ? "; did you mean " + option + meant + "?" : "";
+  return parse_integer(words.substr(0, words.find(' '))) == count ? "; did you mean " + option + meant + "?" : "";
 }
 
 }  // namespace

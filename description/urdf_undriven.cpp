@@ -67,7 +67,7 @@ std::string wheels_about_others(const Robot& robot) {
     const auto number = [](double value) { return print_number(std::abs(value) < 1e-6 ? 0 : value); };
     result += (result.empty() ? "joint '" : ", joint '") + joint.name + "' of link '" + wheel.name + "' (" +
               robot.file + ":" + std::to_string(wheel.line) + ") turns about the robot's " + "xyz"[nearest] +
-              " axis, and a wheel about y: <axis xyz=\"" + number(own.x()) + ' ' + number(own.y()) + ' ' +
+              " axis, and a wheel about y: expected <axis xyz=\"" + number(own.x()) + ' ' + number(own.y()) + ' ' +
               number(own.z()) + "\"/>";
   }
   return result;

@@ -69,7 +69,7 @@ struct Host {
     // "self/claim/0": the table of a claim by its number, for the message of a fault in it.
     const std::string of_claim = "self/claim/";
     if (path.rfind(of_claim, 0) == 0) {
-      const auto number = std::strtoull(path.c_str() + of_claim.size(), nullptr, 10);
+      const auto number = static_cast<std::size_t>(parse_integer(path.substr(of_claim.size())).value_or(-1));
       return number < i.claims_.size() ? keep(i.claims_[number].name.text()) : nullptr;
     }
     const World& world = *i.around_.world;

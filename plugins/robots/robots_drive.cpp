@@ -2,11 +2,13 @@
 #include <cmath>
 #include <muster/ground_drives.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "description/file_text.hpp"
 #include "description/world_robots.hpp"
+#include "plugins/world_folder.hpp"
 #include "ramp.hpp"
 
 namespace {
@@ -51,6 +53,7 @@ struct RobotsDrive {
       : noise(s.value("noise")),
         stream(s.stream("actuation")),
         robots(s, description::Meshes::skip),
+        folder(world_folder(s.host())),
         command(s.read_if_any<Command>("robot/*/command")),
         flight(s.read_if_any<AttitudeThrust>("robot/*/attitude_thrust")),
         sideways(s.read_if_any<Sideways>("robot/*/sideways")),
@@ -110,11 +113,19 @@ struct RobotsDrive {
       return;
     }
     if (const std::string others = description::wheels_about_others(*robot); !others.empty())
-      return k.warn("robot/" + name, robot_is + "has no drive, so that it does not move: " + others);
-    k.warn("robot/" + name, robot_is + "has no drive, so that it does not move" + wheels_in_words(*robot) +
+      return k.warn("robot/" + name, robot_is + "has no drive, so that it does not move: " + beside_the_world(others));
+    k.warn("robot/" + name, robot_is + "has no drive, so that it does not move" +
+                                beside_the_world(wheels_in_words(*robot)) +
                                 "<muster><differential left=\"\" right=\"\" "
                                 ".../></muster> in " +
-                                robot->file + ", or in a file of fittings");
+                                beside_the_world(robot->file) + ", or in a file of fittings");
+  }
+
+  // Paths of files in the world's folder without it.
+  std::string beside_the_world(std::string words) const {
+    const std::string begin = folder + '/';
+    for (auto at = words.find(begin); at != words.npos; at = words.find(begin, at)) words.erase(at, begin.size());
+    return words;
   }
 
   // Once of each robot that is asked to go sideways and has no rollers.
@@ -225,6 +236,7 @@ struct RobotsDrive {
   Value noise;
   Stream stream;
   WorldRobots robots;
+  std::string folder;
   In<Command> command;
   In<AttitudeThrust> flight;  // by which some controller flies robots
   In<Sideways> sideways;

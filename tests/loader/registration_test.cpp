@@ -159,7 +159,7 @@ TEST(Registration, RefusesACauseWhoseSentenceOrRowIsOfNoParameter) {
   EXPECT_EQ(refused("the exponent is {n}, and {n|too high|too low}"), "");
   EXPECT_EQ(refused("the exponent is {m}"), begin +
                                                 "has the title \"the exponent is {m}\", in which {m} is no parameter; "
-                                                "expected one of n");
+                                                "expected n");
   EXPECT_EQ(refused("the exponent is {n"), begin + "has the title \"the exponent is {n\", with a { that no } ends");
   EXPECT_EQ(refused("{n|high}"), begin +
                                      "has the title \"{n|high}\", in which {n|high} has 1 words for the sign; expected "
