@@ -295,7 +295,8 @@ bool guarded(const muster_host* host, Body&& body) noexcept {
   } catch (const BadInput& e) {
     host->refuse(host, e.what());
   } catch (const NoRow& e) {
-    host->error(host, in_words(host, e).c_str());
+    const char* table = host->text(host, ("self/claim/" + std::to_string(e.claim)).c_str());  // null: an older kernel
+    host->error(host, in_words(e, table).c_str());
   } catch (const std::runtime_error& e) {
     if (*e.what()) host->error(host, e.what());
   } catch (const std::exception& e) {

@@ -1,8 +1,6 @@
 // Views of a table's rows as structs of doubles, and the checks that keep a plugin inside of them.
 #pragma once
 
-#include <muster/plugin.h>
-
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -56,9 +54,8 @@ struct NoRow : std::out_of_range {
   throw NoRow(row, rows, claim);
 }
 
-// "uses row 1 of robot/r1/command, which has 1 row": the kernel knows a claim's table.
-inline std::string in_words(const muster_host* host, const NoRow& e) {
-  const char* table = host->text(host, ("self/claim/" + std::to_string(e.claim)).c_str());
+// "uses row 1 of robot/r1/command, which has 1 row here"; `table`: its name, or null.
+inline std::string in_words(const NoRow& e, const char* table) {
   const char* remedy = e.size == 0   ? "expected a look at empty() first"
                        : e.size == 1 ? "expected row 0, or *k[table]"
                                      : "expected rows from 0 on and below k[table].size()";

@@ -63,7 +63,7 @@ TEST(AntennaProgram, ARowOfItsTableIsToldWithItsLine) {
   const ProgramFolder folder;
   folder.write("gain.csv", "azimuth[rad],elevation[rad],gain[dBi]\n0,0,0\n-180,-90,0\n");
   folder.write("world.xml", world_of("<station name='base' at='0 0 1'/><station name='far' at='9 0 1'/>"
-                                     "<radio.multiwall/><network.ideal/>"
+                                     "<radio.multiwall/><radio.receiver/>"
                                      "<radio.antenna radio='base' pattern='table' file='gain.csv'/>"));
   expect_error(
       folder.muster({"run", "world.xml"}), 2,
