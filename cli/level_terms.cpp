@@ -53,7 +53,8 @@ std::string title(const Instance& instance) {
 bool is_beside(const Instance& instance) {
   static const std::set<std::string> beside = {"radio.antenna", "radio.bodies", "radio.meshes"};
   const std::string id = instance.plugin().id;
-  return instance.plugin().draw || instance.plugin().cause || beside.count(id.substr(0, id.find('/')));
+  const muster_cause* cause = instance.plugin().cause;  // one that replaces a part may be a path loss itself
+  return instance.plugin().draw || (cause && !cause->replaces) || beside.count(id.substr(0, id.find('/')));
 }
 
 std::string titles(const std::vector<const Instance*>& terms) {

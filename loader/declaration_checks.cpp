@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -119,9 +120,11 @@ void check_title(const muster_plugin& plugin, std::string_view title) {
 
 void check_cause(const muster_plugin& plugin, const muster_cause& cause) {
   if (cause.title) check_title(plugin, cause.title);
-  if (!cause.ranges_over || !*cause.ranges_over) return;
-  Declaration(plugin, "cause", cause.size, first_cause)
-      .expect_parameter("ranges_over", cause.ranges_over, {MUSTER_REFERENCE}, "a reference");
+  if (!cause.ranges_over) return;
+  const Declaration declared(plugin, "cause", cause.size, first_cause);
+  std::istringstream names(cause.ranges_over);  // one, or two with a blank between: "a b"
+  for (std::string name; names >> name;)
+    declared.expect_parameter("ranges_over", name.c_str(), {MUSTER_REFERENCE}, "a reference");
 }
 
 }  // namespace

@@ -164,6 +164,8 @@ TEST(Registration, RefusesACauseWhoseSentenceOrRowIsOfNoParameter) {
   EXPECT_EQ(refused("{n|high}"), begin +
                                      "has the title \"{n|high}\", in which {n|high} has 1 words for the sign; expected "
                                      "{n|if positive|if negative}");
+  EXPECT_EQ(refused("of {n}", "a b"),
+            begin + "names \"a\" as its ranges_over, which is not a reference of the plugin; it has none");
   EXPECT_EQ(refused("of {n}", "radio"),
             begin + "names \"radio\" as its ranges_over, which is not a reference of the plugin; it has none");
 }
