@@ -3,8 +3,8 @@
 
 #include <cstdlib>
 
-#include "double_terms.hpp"
 #include "kernel/record.hpp"
+#include "level_terms.hpp"
 #include "text/json.hpp"
 #include "verbs.hpp"
 
@@ -31,7 +31,7 @@ std::vector<std::string> warnings_of(const Simulation& run) {
     const bool is_warning = event.message.starts_with(prefix);
     if (is_warning || event.tick == 0) result.push_back(is_warning ? event.message : prefix + event.message);
   }
-  for (const std::string& term : double_terms(run)) result.push_back(prefix + term);
+  for (const std::string& term : level_doubts(run)) result.push_back(prefix + term);
   return result;
 }
 

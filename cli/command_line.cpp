@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "text/error.hpp"
 #include "text/names.hpp"
@@ -153,6 +154,23 @@ std::string unexpected(const CLI::App& app) {
                       app.get_option_no_throw("attributes") == nullptr, all);
 }
 
+// "; did you mean --from 3 2?" of --from 3,2: numbers of one option that are parted by other signs than blanks. `words`
+// begins with their number.
+std::string parted_by_commas(const Arguments& arguments, const std::string& option, const std::string& words) {
+  const auto given = std::find(arguments.begin(), arguments.end(), option);
+  if (given == arguments.end() || std::next(given) == arguments.end()) return "";
+  std::string meant, word;
+  std::int64_t count = 0;
+  for (const char c : *std::next(given) + ' ') {
+    const bool parts = std::string_view(" ,;:").find(c) != std::string_view::npos;
+    if (!parts) word += c;
+    if (!parts || word.empty()) continue;
+    meant += ' ' + std::exchange(word, "");
+    ++count;
+  }
+  return parse_integer(words.substr(0, words.find(' '))) == count ? "; did you mean " + option + meant + "?" : "";
+}
+
 }  // namespace
 
 UnknownOption::UnknownOption(std::string of_verb, std::string name, const std::string& remedy, bool is_guess_,
@@ -219,6 +237,29 @@ void CommandLine::refuse(const std::string& what) const {
               fmt::format("muster {}: {}; see muster {} --help", app_->get_name(), what, app_->get_name()));
 }
 
+void CommandLine::only_with(const std::string& option, const std::string& other, const std::string& value) {
+  effects_.push_back({option, other, value, "", true});
+}
+
+void CommandLine::void_beside(const std::string& other, const std::vector<std::string>& options,
+                              const std::string& why) {
+  for (const std::string& option : options) effects_.push_back({option, other, "", why, false});
+}
+
+void CommandLine::check_effects() const {
+  for (const Effect& effect : effects_) {
+    if (app_->get_option(effect.option)->count() == 0) continue;
+    const CLI::Option& other = *app_->get_option(effect.other);
+    const bool is_there = other.count() > 0 && (effect.value.empty() || other.results().back() == effect.value);
+    const std::string beside = effect.other + (effect.value.empty() ? "" : ' ' + effect.value);
+    if (effect.needs_other && !is_there)
+      refuse(effect.option + " has no effect without " + beside + "; expected " + beside + " beside it, or no " +
+             effect.option);
+    if (!effect.needs_other && is_there)
+      refuse(effect.option + " has no effect beside " + beside + ", which " + effect.why + "; expected one of the two");
+  }
+}
+
 void CommandLine::parse(const Arguments& arguments) {
   if (declare_to) {
     declare_to->name = app_->get_name();
@@ -252,12 +293,13 @@ void CommandLine::parse(const Arguments& arguments) {
       const auto got = what.find(" required but received ");
       if (got != what.npos)
         refuse(what.substr(0, few) + ": expected " + what.substr(few + 11, got - few - 11) + " words, not " +
-               what.substr(got + 23));
+               what.substr(got + 23) + parted_by_commas(arguments, what.substr(0, few), what.substr(few + 11)));
     }
     refuse(once == what.npos ? what : what.substr(0, once) + " is given more than once; expected one value");
   } catch (const CLI::ParseError& e) {
     refuse(e.what());
   }
+  check_effects();
 }
 
 DeclaredVerb declared(int (*verb)(const Arguments&)) {

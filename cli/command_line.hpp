@@ -51,11 +51,24 @@ class CommandLine {
   Option option(const std::string& name, double& variable, const std::string& help);
   Option flag(const std::string& name, bool& variable, const std::string& help);
 
+  // Refuses `option` where `other` is not given, or has another value: it would do nothing.
+  void only_with(const std::string& option, const std::string& other, const std::string& value = "");
+  // Refuses each of `options` where the flag or option `other` is given, which makes it void: "runs no tick".
+  void void_beside(const std::string& other, const std::vector<std::string>& options, const std::string& why);
+
   // Throws Error where the words are off, Helped where only help was asked for.
   void parse(const Arguments& arguments);
 
  private:
   [[noreturn]] void refuse(const std::string& what) const;
+  void check_effects() const;
+
+  // An option that has no effect beside another, or without it.
+  struct Effect {
+    std::string option, other, value, why;
+    bool needs_other;
+  };
+  std::vector<Effect> effects_;
 
   std::unique_ptr<CLI::App> app_;
 };

@@ -111,6 +111,8 @@ class Comparison {
   // What cannot be run is told in the end; the others go on.
   void add_other(const std::string& word) {
     const auto wanted = exchange_in(word);
+    if (!wanted) refuse_plugin(word);
+    if (wanted) refuse_attribute(*wanted, word);
     World world = world_of(wanted ? words_.world : word, words_);
     if (wanted) exchange(world, *wanted, instance_names(*runs_[0].run), "muster compare");
     if (world.dt != runs_[0].run->world().dt)
@@ -123,6 +125,32 @@ class Comparison {
       if (!refused_) refused_ = e;
       not_run_.push_back(word);
     }
+  }
+
+  // A plugin or an instance in the place of a world: INSTANCE= is missing before it, or =PLUGIN behind it.
+  void refuse_plugin(const std::string& word) const {
+    if (std::filesystem::exists(word) || word.find('/') != word.npos || word.ends_with(".xml")) return;
+    const auto dot = word.find('.');
+    const std::string kind = word.substr(0, dot), start = quote(word) + " is no world; expected ";
+    for (const InstanceDeclaration& instance : runs_[0].run->world().instances) {
+      if (dot == word.npos && instance.name != word) continue;
+      if (dot != word.npos && instance.plugin.substr(0, instance.plugin.find('.')) != kind) continue;
+      throw Error(Exit::invalid_input,
+                  "muster compare: " + start +
+                      (dot == word.npos ? word + "=PLUGIN, the plugin that takes its place"
+                                        : "INSTANCE=PLUGIN, such as " + instance.name + '=' + word));
+    }
+  }
+
+  // "step=0.002" behind "physics=physics.ode": an attribute follows its plugin behind a colon.
+  void refuse_attribute(const Exchange& wanted, const std::string& word) const {
+    const auto names = instance_names(*runs_[0].run);
+    if (std::find(names.begin(), names.end(), wanted.instance) != names.end()) return;
+    const auto here = std::find(words_.others.begin(), words_.others.end(), word);
+    if (here == words_.others.begin() || here == words_.others.end() || !exchange_in(*std::prev(here))) return;
+    throw Error(Exit::invalid_input, "muster compare: no instance is called " + quote(wanted.instance) +
+                                         "; did you mean " + *std::prev(here) + ':' + word +
+                                         "? attributes follow their plugin behind a colon");
   }
 
   void begin() {

@@ -139,9 +139,15 @@ int run_log(const Arguments& arguments) {
   line.parse(arguments);
   const bool cuts = words.action == "cut";
   if (!cuts && (words.from || words.to))
-    throw Error(Exit::invalid_input, "--from and --to are of cut, not of " + words.action);
+    throw Error(Exit::invalid_input,
+                "--from and --to are of cut, not of " + words.action + "; expected first muster log cut " + words.file +
+                    (words.from ? " --from " + *words.from : "") + (words.to ? " --to " + *words.to : "") +
+                    " -o part.mcap, then muster log " + words.action + " part.mcap");
   if (words.action != "csv" && !words.columns.empty())
     throw Error(Exit::invalid_input, "--column is of csv, not of " + words.action);
+  if (words.action == "info" && !words.out.empty())
+    throw Error(Exit::invalid_input,
+                "--out is of recover, cut and csv; info writes no file; expected no --out, or info > " + words.out);
   if (words.action == "info") return log_info(words);
   if (words.action == "recover") return log_recover(words);
   return cuts ? log_cut(words) : log_csv(words);

@@ -47,7 +47,7 @@ RoadmapWords roadmap_words(const Arguments& arguments) {
   line.option("--method", words.method, "how the free space is made a graph")
       .one_of({"visibility", "grid"})
       .shows_default();
-  line.option("--step", step, "between places of the grid, in m").shows_default();
+  line.option("--step", step, "with --method grid: between its places, in m").shows_default();
   line.option("--margin", margin, "kept from walls beyond the radius, in m").shows_default();
   line.option("--room", room, "around walls and robots, in m").shows_default();
   line.option("--height", height, "with --radius: walls above it are in nobody's way, in m").shows_default();
@@ -58,6 +58,8 @@ RoadmapWords roadmap_words(const Arguments& arguments) {
   line.option("--out", words.out, "the table to write, a row a piece and a wall").required();
   line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
   line.flag("--json", words.json, "print the figures as JSON");
+  line.only_with("--step", "--method", "grid");
+  line.only_with("--height", "--radius");
   line.parse(arguments);
   const auto positive = [](const std::string& text, const char* option, double least) {
     const double value = real_of(text, option);

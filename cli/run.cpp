@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "double_terms.hpp"
+#include "level_terms.hpp"
 #include "live_view.hpp"
 #include "pacing.hpp"
 #include "restored_run.hpp"
@@ -58,6 +58,7 @@ void declare(CommandLine& line, RunWords& words) {
               "with --view: a site whose page may watch, such as https://app.foxglove.dev")
       .one_word_each();
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
+  line.void_beside("--expected", {"--until", "--digest-every", "--watch", "--real-time", "--speed"}, "runs no tick");
 }
 
 // Loads plugins again whose files have changed since the last look.
@@ -226,7 +227,7 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   options.costs = words.cost;
   Simulation run(world, standard(), std::move(options));
   check_records(run);
-  for (const std::string& term : double_terms(run)) fmt::print(stderr, "muster: warning: {}\n", term);
+  for (const std::string& term : level_doubts(run)) fmt::print(stderr, "muster: warning: {}\n", term);
   if (!words.restore.empty()) restore(run, words.restore, words.seed.has_value());
   set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)
@@ -358,6 +359,10 @@ int run_swap(const Arguments& arguments) {
   line.option("--plugin", words.swap.plugin.plugin, "its new plugin, such as physics.planar").required();
   line.option("attributes", attributes, "NAME=VALUE: attributes of the new plugin");
   line.parse(arguments);
+  if (words.expected)
+    throw Error(Exit::invalid_input,
+                "muster swap: --expected runs no tick, so that nothing is exchanged; expected muster run WORLD "
+                "--expected, or no --expected");
   auto& replacement = words.swap.plugin;
   replacement = instance_of(words.swap.instance, replacement.plugin, attributes, "muster swap");
   return run_world(words);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <set>
 
 #include "text/comma_list.hpp"
@@ -48,13 +49,40 @@ uint64_t tick_in_run(const World& world, double seconds, const char* option) {
   return tick;
 }
 
+namespace {
+
+// "1..20", "1-20", "1:20", "1,2,3": several seeds, as a sweep has them.
+bool is_several(const std::string& text) {
+  const auto sign = text.find_first_not_of("0123456789");
+  const auto next = text.find_first_of("0123456789", sign);
+  const bool is_decimal = text.find('.') != text.npos && text.find("..") == text.npos;
+  return sign != 0 && sign != text.npos && next != text.npos && !is_decimal &&
+         text.find_first_not_of("0123456789.-:, ") == text.npos;
+}
+
+std::string as_seeds(const std::string& text) {
+  const auto sign = text.find_first_not_of("0123456789"), next = text.find_first_of("0123456789", sign);
+  const bool is_list = text.find_first_of(", ") != text.npos;
+  if (!is_list)
+    return text.substr(0, sign) + ".." + text.substr(next, text.find_first_not_of("0123456789", next) - next);
+  std::string result = text;
+  std::replace(result.begin(), result.end(), ',', ' ');
+  return result;
+}
+
+}  // namespace
+
 World world_of(const std::string& path, const RunOptions& words) {
   World world = read_world(path, standard());
   if (words.until) world.ticks = ticks_of(real_of(*words.until, "--until", "s"), world.dt, {"--until"});
   if (words.seed) {
     const auto seed = parse_integer(*words.seed);
     if (!seed || *seed < 0)
-      throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0");
+      throw Error(Exit::invalid_input, "--seed: " + quote(*words.seed) + " is no seed; expected an integer from 0" +
+                                           (is_several(*words.seed) ? ", and one: of several seeds, muster sweep, with "
+                                                                      "seeds=\"" +
+                                                                          as_seeds(*words.seed) + "\" in its file"
+                                                                    : ""));
     world.seed = static_cast<uint64_t>(*seed);
   }
   for (const auto& table : words.record)

@@ -220,8 +220,9 @@ class Sweep {
       fmt::print("{}\n", json.dump(2));
       return;
     }
-    fmt::print("{}: {} combinations of {} seeds, {} runs, {} of them done before\n\n{}", file_.name(),
-               file_.combinations(), file_.seeds.size(), all.all, before_, text_of(summary));
+    const std::size_t seeds = file_.seeds.size();
+    fmt::print("{}: {} combinations of {} seed{}, {} runs, {} of them done before\n\n{}", file_.name(),
+               file_.combinations(), seeds, seeds == 1 ? "" : "s", all.all, before_, text_of(summary));
     for (const fs::path& file : files) fmt::print("  wrote {}\n", file.string());
   }
 
@@ -231,6 +232,16 @@ class Sweep {
   Library::SearchPath plugins_;
   std::int64_t before_ = 0;
 };
+
+// One seed above 1 may be meant as the number of seeds.
+void note_single_seed(const sweep::SweepFile& file) {
+  constexpr std::int64_t most = 1000;  // of seeds that are meant as a number
+  if (file.seeds.size() != 1 || file.seeds[0] < 2 || file.seeds[0] > most) return;
+  fmt::print(stderr,
+             "muster: note: {}: seeds=\"{}\" is one seed, the number {}, so that there are no intervals; "
+             "expected seeds=\"1..{}\" for {} seeds\n",
+             file.seeds_place.text(), file.seeds[0], file.seeds[0], file.seeds[0], file.seeds[0]);
+}
 
 }  // namespace
 
@@ -258,8 +269,11 @@ int run_sweep(const Arguments& arguments) {
       .excludes("--index")
       .excludes("--slurm");
   line.flag("--json", words.json, "print the outcome as JSON");
+  line.void_beside("--slurm", {"--json"}, "prints a script");
+  line.void_beside("--parallel", {"--json"}, "prints commands");
   line.parse(arguments);
   const sweep::SweepFile file = sweep::read_sweep(words.file);
+  note_single_seed(file);
   WrittenFiles::writes_folder(words.out, "--out");
   if (words.slurm > 0) return print_slurm(words, file), 0;
   if (words.parallel > 0) return print_parallel(words), 0;

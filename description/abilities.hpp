@@ -29,6 +29,11 @@ constexpr Ability operator|(Ability a, Ability b) {
   return static_cast<Ability>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
+// The abilities of the backend that has most, which messages of the others name.
+inline constexpr Ability abilities_of_simbody =
+    Ability::wheels | Ability::steering | Ability::mecanum | Ability::rotors | Ability::legs | Ability::height |
+    Ability::tilting | Ability::hinges | Ability::sliders | Ability::balls | Ability::bouncing | Ability::pushed;
+
 // The abilities that the robot needs and `have` lacks, in words and with commas between; "" if none.
 std::string lacking(const Robot& robot, Ability have);
 

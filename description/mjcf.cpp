@@ -239,10 +239,23 @@ class Reader {
       const bool turns = joint.kind == JointKind::revolute;
       joint.lower = turns ? values_.angle((*range)[0]) : (*range)[0];
       joint.upper = turns ? values_.angle((*range)[1]) : (*range)[1];
+      if (turns) warn_of_radians(element, joint, (*range)[0], (*range)[1]);
     }
     joint.damping = values_.number(element, "damping", 0);
     joint.friction = values_.number(element, "frictionloss", 0);
     if (joint.damping < 0 || joint.friction < 0) values_.fail(element, "damping and frictionloss must not be below 0");
+  }
+
+  // Degrees are MuJoCo's default, and a range within a turn of radians that has decimals is seldom meant in them.
+  void warn_of_radians(const Values::Element& element, const Joint& joint, double lower, double upper) {
+    constexpr double turn = 6.283185307179586, degree = turn / 360;
+    const bool has_decimals = lower != std::round(lower) || upper != std::round(upper);
+    if (!values_.is_degrees_by_default() || !has_decimals || std::max(std::abs(lower), std::abs(upper)) > turn) return;
+    robot_.warnings.push_back(place(*element.xml) + "joint '" + joint.name + "': its range of " + print_number(lower) +
+                              " to " + print_number(upper) +
+                              " is in degrees, MuJoCo's default; are these radians? expected range=\"" +
+                              print_number(lower / degree) + ' ' + print_number(upper / degree) +
+                              "\", or <compiler angle=\"radian\"/> of all angles");
   }
 
   // What an actuator can do is that of its joint: a drive takes it from there.

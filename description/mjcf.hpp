@@ -40,6 +40,8 @@ class Values {
 
   // A frame by pos and any of MuJoCo's ways to give a rotation.
   Eigen::Isometry3d frame(const Element& element) const;
+  // True for degrees that no <compiler angle="..."> states: those of MuJoCo's default.
+  bool is_degrees_by_default() const { return in_degrees_ && !states_angle_; }
   double angle(double value) const { return in_degrees_ ? value * 3.14159265358979323846 / 180 : value; }
   // What MuJoCo has with <compiler inertiafromgeom="true">: <inertial> is not used.
   bool takes_inertia_from_shapes() const { return inertia_from_shapes_; }
@@ -58,7 +60,7 @@ class Values {
   const Source& source_;
   std::map<std::string, Class> classes_;
   std::string euler_ = "xyz", mesh_folder_;
-  bool in_degrees_ = true, inertia_from_shapes_ = false;
+  bool in_degrees_ = true, states_angle_ = false, inertia_from_shapes_ = false;
 };
 
 // A geom: its shapes in the body's frame, its mass, and whether it touches anything.

@@ -16,7 +16,7 @@ Values::Values(const Source& source, const XMLElement& root) : source_(source) {
        compiler = compiler->NextSiblingElement("compiler")) {
     const auto text_of = [&](const char* name) { return compiler->Attribute(name) ? compiler->Attribute(name) : ""; };
     const std::string angle = text_of("angle"), euler = text_of("eulerseq"), inertia = text_of("inertiafromgeom");
-    if (!angle.empty()) in_degrees_ = angle != "radian";
+    if (!angle.empty()) in_degrees_ = angle != "radian", states_angle_ = true;
     if (!euler.empty()) euler_ = euler;
     if (!inertia.empty()) inertia_from_shapes_ = inertia == "true";
     if (compiler->Attribute("meshdir")) mesh_folder_ = text_of("meshdir");

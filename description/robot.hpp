@@ -231,8 +231,10 @@ LimbModel limb_model(const Robot& robot, const LimbJoint& limb);
 // Properties of a joint that no engine here models; "" if there are none.
 std::string unmodelled(const Joint& joint);
 
-// Wheels by their names that do not turn, as "joint 'j' of link 'l' (FILE:LINE) is fixed, ..."; "" if there are none.
+// Wheels by their names that do not turn, as "joint 'j' of link 'l' (FILE:LINE) is fixed, ...", or not about the
+// robot's y axis; "" if there are none.
 std::string wheels_that_stand(const Robot& robot);
+std::string wheels_about_others(const Robot& robot);
 
 // Mass of the whole robot, every joint at zero, in the root's frame.
 Mass whole_mass(const Robot& robot);

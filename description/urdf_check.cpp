@@ -117,6 +117,19 @@ void check_joint(const Source& source, const XMLElement& joint, const std::strin
   }
 }
 
+// The one link that is in no joint; "" if there is none, or more than one.
+std::string unjoined(const std::vector<Edge>& edges, const Outline& outline) {
+  std::string found;
+  for (const auto& [link, line] : outline.link_lines) {
+    const bool is_in_one = std::any_of(
+        edges.begin(), edges.end(), [&, &name = link](const Edge& e) { return e.child == name || e.parent == name; });
+    if (is_in_one) continue;
+    if (!found.empty()) return "";
+    found = link;
+  }
+  return found;
+}
+
 // Checks that links have one parent, and that all exist.
 std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge>& edges, const Outline& outline) {
   std::map<std::string, Edge> parent_of;
@@ -129,8 +142,11 @@ std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge
     }
     const auto [other, added] = parent_of.emplace(edge.child, edge);
     if (!added) {
-      source.fail(edge.line, "link '" + edge.child + "' has two parents: '" + other->second.parent + "' (line " +
-                                 std::to_string(other->second.line) + ") and '" + edge.parent + "'");
+      const std::string left = unjoined(edges, outline);
+      source.fail(edge.line, "link '" + edge.child + "' is the <child> of two joints, '" + other->second.joint +
+                                 "' (line " + std::to_string(other->second.line) + ") and '" + edge.joint +
+                                 "'; expected one" +
+                                 (left.empty() ? "" : ": link '" + left + "' is in no joint; is it meant here?"));
     }
   }
   return parent_of;

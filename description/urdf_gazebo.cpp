@@ -61,6 +61,15 @@ class Reader {
   std::string what_;
 };
 
+// Of a sweep that is none in radians, and one in degrees.
+std::string in_degrees(const Laser& laser) {
+  constexpr double degree = whole_turn / 360;
+  const double sweep = laser.max_angle - laser.min_angle;
+  if (sweep <= 2 * whole_turn || sweep * degree > whole_turn * (1 + 1e-9)) return "";
+  return "; are these degrees? expected <min_angle>" + print_number(laser.min_angle * degree) +
+         "</min_angle> and <max_angle>" + print_number(laser.max_angle * degree) + "</max_angle>";
+}
+
 // Gazebo's <scan> and <range>. A sweep that figures cut short put beyond a whole turn is a whole turn.
 Laser laser_of(const Reader& read, const XMLElement& ray) {
   const XMLElement& horizontal = read.child(read.child(ray, "scan"), "horizontal");
@@ -74,8 +83,7 @@ Laser laser_of(const Reader& read, const XMLElement& ray) {
   constexpr double rounded = 1e-4;  // [rad]
   if (laser.max_angle - laser.min_angle > whole_turn + rounded)
     read.fail(horizontal, "sweeps more than a whole turn, from " + print_number(laser.min_angle) + " to " +
-                              print_number(laser.max_angle) + " rad" +
-                              (laser.max_angle - laser.min_angle > 2 * whole_turn ? "; are these degrees?" : ""));
+                              print_number(laser.max_angle) + " rad" + in_degrees(laser));
   laser.max_angle = std::min(laser.max_angle, laser.min_angle + whole_turn);
   if (laser.samples > 1 && !(laser.max_angle > laser.min_angle))
     read.fail(horizontal, "<max_angle> is not above <min_angle>");

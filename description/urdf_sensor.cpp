@@ -69,6 +69,14 @@ Eigen::Isometry3d origin_of(const Source& source, const XMLElement& sensor, cons
          Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX());
 }
 
+// Of angles that are none in radians, and may be some in degrees.
+std::string in_degrees(double lower, double upper) {
+  constexpr double degree = turn / 360;
+  if (std::abs(lower) > 360 || std::abs(upper) > 360) return "";
+  return "; are these degrees? expected min_angle=\"" + print_number(lower * degree) + "\" max_angle=\"" +
+         print_number(upper * degree) + '"';
+}
+
 // All rays of a laser are in one plane: <vertical> may only confirm that.
 Laser laser_of(const Source& source, const XMLElement& ray, const std::string& name) {
   only_attributes(source, ray, {});
@@ -86,7 +94,9 @@ Laser laser_of(const Source& source, const XMLElement& ray, const std::string& n
   laser.samples = static_cast<int>(samples);
   laser.min_angle = horizontal.number("min_angle", 0);
   laser.max_angle = horizontal.number("max_angle", 0);
-  if (std::abs(laser.min_angle) > turn || std::abs(laser.max_angle) > turn) horizontal.fail("goes beyond a whole turn");
+  if (std::abs(laser.min_angle) > turn || std::abs(laser.max_angle) > turn)
+    horizontal.fail("goes beyond a whole turn, from " + print_number(laser.min_angle) + " to " +
+                    print_number(laser.max_angle) + " rad" + in_degrees(laser.min_angle, laser.max_angle));
   const double sweep = laser.max_angle - laser.min_angle;
   if (laser.samples > 1 ? !(sweep > 0) : sweep != 0)
     horizontal.fail("max_angle is not above min_angle; a single ray has one angle");

@@ -1,9 +1,11 @@
 // Joints that ROS drives and muster does not: those of an arm, a gripper, a camera's tilt; and wheels that cannot turn.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
+#include "description/file_text.hpp"
 #include "description/urdf_check.hpp"
 
 namespace muster::description {
@@ -43,6 +45,30 @@ std::string wheels_that_stand(const Robot& robot) {
     if (joint.kind == JointKind::continuous || (!is_named_wheel(joint.name) && !is_named_wheel(wheel.name))) continue;
     result += (result.empty() ? "joint '" : ", joint '") + joint.name + "' of link '" + wheel.name + "' (" +
               robot.file + ":" + std::to_string(wheel.line) + ") is " + law_of(joint.kind).name;
+  }
+  return result;
+}
+
+std::string wheels_about_others(const Robot& robot) {
+  constexpr double skew = 0.1;  // of the sine of an angle
+  std::string result;
+  if (std::filesystem::path(robot.file).extension() == ".xml") return result;
+  for (const Joint& joint : robot.joints) {
+    const Link& wheel = robot.links[joint.child];
+    const auto carrier = frame_on_body(robot, joint.parent);
+    const bool is_wheel = is_named_wheel(joint.name) || is_named_wheel(wheel.name);
+    if (joint.kind != JointKind::continuous || !carrier || !is_wheel) continue;
+    const Eigen::Matrix3d turned = (*carrier * joint.origin).linear();
+    const Eigen::Vector3d axis = turned * joint.axis;
+    if (axis.cross(Eigen::Vector3d::UnitY()).norm() < skew) continue;
+    int nearest = 0;
+    axis.cwiseAbs().maxCoeff(&nearest);
+    const Eigen::Vector3d own = turned.transpose() * Eigen::Vector3d::UnitY();
+    const auto number = [](double value) { return print_number(std::abs(value) < 1e-6 ? 0 : value); };
+    result += (result.empty() ? "joint '" : ", joint '") + joint.name + "' of link '" + wheel.name + "' (" +
+              robot.file + ":" + std::to_string(wheel.line) + ") turns about the robot's " + "xyz"[nearest] +
+              " axis, and a wheel about y: expected <axis xyz=\"" + number(own.x()) + ' ' + number(own.y()) + ' ' +
+              number(own.z()) + "\"/>";
   }
   return result;
 }

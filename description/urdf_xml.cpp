@@ -140,6 +140,16 @@ void refuse_xacro(const Source& source, const XMLElement& element) {
     refuse_xacro(source, *child);
 }
 
+// Of a file with another root element than <robot>: one of those that <robot> has in it may stand alone.
+std::string other_root(const std::string& name) {
+  if (name.empty()) return "is not URDF; expected <robot>";
+  if (name == "sdf") return "is SDF, not URDF; expected <robot>";
+  const std::vector<std::string> inside = {"muster", "sensor", "gazebo", "link", "joint", "transmission"};
+  const bool is_inside = std::find(inside.begin(), inside.end(), name) != inside.end();
+  return "<" + name + "> is the root element of this file, which is no URDF; expected <robot name=\"...\">" +
+         (is_inside ? " around <" + name + ">" : "");
+}
+
 }  // namespace
 
 void parse_xml(const Source& source, const std::string& text, tinyxml2::XMLDocument& document) {
@@ -168,9 +178,7 @@ void parse_urdf(const Source& source, const std::string& text, tinyxml2::XMLDocu
   parse_xml(source, text, document);
   const XMLElement* root = document.RootElement();
   if (!root || root->Name() != std::string("robot"))
-    source.fail(root ? root->GetLineNum() : 1,
-                (root && root->Name() == std::string("sdf") ? "is SDF, not URDF" : std::string("is not URDF")) +
-                    "; expected <robot>");
+    source.fail(root ? root->GetLineNum() : 1, other_root(root ? root->Name() : ""));
   refuse_xacro(source, *root);
 }
 

@@ -86,6 +86,7 @@ class WorldRobots {
   // named.
   void require(Ability have, const Setup& setup) const {
     std::string list;
+    bool is_in_simbody = true;
     std::vector<const Robot*> seen;
     for (std::size_t row = 0; row < robots_.size(); ++row) {
       const Robot* robot = robots_[row].get();
@@ -93,11 +94,14 @@ class WorldRobots {
       seen.push_back(robot);
       const std::string lack = lacking(*robot, have);
       if (lack.empty()) continue;
+      is_in_simbody = is_in_simbody && lacking(*robot, abilities_of_simbody).empty();
       list.append(list.empty() ? "robot '" : "; robot '");
       list.append(setup.host()->row_name(setup.host(), "robot", static_cast<uint32_t>(row)));
       list.append("' (model '").append(robot->name).append("') needs ").append(lack);
     }
-    if (!list.empty()) throw BadInput("it lacks what the world's robots need: " + list);
+    if (!list.empty())
+      throw BadInput("it lacks what the world's robots need: " + list +
+                     (is_in_simbody ? "; expected physics.simbody, which has that" : ""));
   }
 
   std::size_t size() const { return robots_.size(); }

@@ -6,6 +6,19 @@
 
 namespace muster::exam {
 
+namespace {
+
+// A word that no option takes: it may be the value of the first option that is missing, "exam" of --answers exam.
+std::string one_word_too_many(const std::string& word, const Arguments& known, const Arguments& given) {
+  const auto missing = std::find_if(known.begin(), known.end(), [&](const auto& option) {
+    return option.second.size() == 1 && !given.contains(option.first);
+  });
+  return "\"" + word + "\" is one word too many" +
+         (missing == known.end() ? "; expected options alone" : "; did you mean " + missing->first + ' ' + word + "?");
+}
+
+}  // namespace
+
 Arguments parsed(int argc, char** argv, const Arguments& known) {
   Arguments result;
   for (int i = 2; i < argc; ++i) {
@@ -19,6 +32,7 @@ Arguments parsed(int argc, char** argv, const Arguments& known) {
       std::vector<std::string> names;
       for (const auto& [name, values] : known)
         if (!name.empty()) names.push_back(name);
+      if (option[0] != '-') throw std::invalid_argument(one_word_too_many(option, known, result));
       throw std::invalid_argument("there is no option " + option + "; " + expected(option, names));
     }
     auto& values = result[option];

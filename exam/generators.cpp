@@ -194,6 +194,10 @@ void make_cases(const Arguments& arguments, const std::filesystem::path& out, bo
   const int first = arguments.contains("--first") ? number("--first", arguments.at("--first")[0], 1, 1000000) : 1;
   const auto at = arguments.find("--generator");
   const std::string generator = at == arguments.end() ? "drawn" : at->second[0];
+  const auto mix = arguments.find("--mix");
+  if (mix != arguments.end() && mix->second[0] == "clean" && arguments.contains("--effects"))
+    throw std::invalid_argument(
+        "--effects has no effect with --mix clean, whose cases hide none; expected one of the two");
   const MakeOne make_one = generator == "drawn"   ? drawn(arguments, out)
                            : generator == "field" ? field(arguments, out)
                            : generator == "run"   ? simulated_runs(arguments, out)

@@ -1,8 +1,10 @@
 #include "claim.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <muster/row_types.hpp>
 
+#include "link.hpp"
 #include "text/names.hpp"
 #include "text/paths.hpp"
 #include "text/text_table.hpp"
@@ -33,6 +35,17 @@ std::string substituted(const std::string& row, const Instance& instance, const 
 
 }  // namespace
 
+namespace {
+
+// A table's name that has too few parts: one of the instance's own is meant where the name is one word, and no set.
+Error misnamed(const std::string& text, const Instance& instance, const Surroundings& around) {
+  const bool is_own = is_name(text) && !around.board->find_set(text);
+  return instance.refused("claims " + quote(text) + "; expected set/row/quantity" +
+                          (is_own ? ", or " + quote("self/" + text) + " for a table of its own" : ""));
+}
+
+}  // namespace
+
 TableName parse_table_name(const std::string& text, const Instance& instance, const Surroundings& around) {
   TableName name;
   const auto at = text.find('@');
@@ -40,13 +53,13 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
   const std::string path = text.substr(0, at);
   const auto first = path.find('/');
   const auto last = path.rfind('/');
-  if (first == std::string::npos) throw instance.refused("claims " + quote(text) + "; expected set/row/quantity");
+  if (first == std::string::npos) throw misnamed(text, instance, around);
   name.quantity = path.substr(last + 1);
   if (path.compare(0, first, "self") == 0 && first == last) {
     name.set = "instance/" + instance.name();
     name.row = "*";
   } else if (first == last) {
-    throw instance.refused("claims " + quote(text) + "; expected set/row/quantity");
+    throw misnamed(text, instance, around);
   } else {
     name.set = path.substr(0, first);
     name.row = substituted(path.substr(first + 1, last - first - 1), instance, around);
@@ -55,8 +68,7 @@ TableName parse_table_name(const std::string& text, const Instance& instance, co
       name.row = "*";
     }
   }
-  if (name.quantity.empty() || name.row.empty())
-    throw instance.refused("claims " + quote(text) + "; expected set/row/quantity");
+  if (name.quantity.empty() || name.row.empty()) throw misnamed(text, instance, around);
   return name;
 }
 
@@ -118,6 +130,22 @@ const Quantity* standard_quantity(const Standard& standard, const TableName& nam
   return nullptr;
 }
 
+namespace {
+
+// Of a plugin whose kind is the word of another phase than its own, such as "radio.mine" in CONTROL: "MUSTER_RADIO".
+std::string phase_of_kind(const Instance& instance) {
+  constexpr std::size_t enough = 4;  // letters in which "sensors" and SENSE are alike
+  std::string kind = instance.declared().plugin.substr(0, enough);
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::toupper(c); });
+  for (uint32_t phase = MUSTER_ACTUATE; phase <= MUSTER_OBSERVE; ++phase) {
+    const std::string name = phase_name(phase);
+    if (name.substr(0, enough) == kind) return "MUSTER_" + name;
+  }
+  return "";
+}
+
+}  // namespace
+
 // Private tables are the instance's own memory. Quantities that are not standard are checked when the world is linked,
 // since the writer's claim decides.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around) {
@@ -133,8 +161,12 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
         if (q.sensed) sensed += (sensed.empty() ? "" : ", ") + std::string(set.name) + '/' + q.name;
       }
     }
-    throw instance.refused(what + ", which is truth; a controller knows what its robot senses: expected one of " +
-                           sensed);
+    const std::string meant = phase_of_kind(instance);
+    throw instance.refused(what + ", which is truth; " +
+                           (meant.empty() ? "a controller knows what its robot senses: expected one of " + sensed
+                                          : "its source states phase = MUSTER_CONTROL, in which a plugin has what its "
+                                            "robot senses and no more; expected phase = " +
+                                                meant));
   }
   if (claim.kind == MUSTER_READ && !claim.name.part.empty())
     throw instance.refused("claims " + quote(claim.name.text()) +

@@ -46,6 +46,15 @@ const XmlAttribute* attribute_of(std::string_view words, const InstanceDeclarati
   return declared.attribute(words.substr(begin.size(), end - begin.size()));
 }
 
+std::size_t row_in_file(std::string_view words) {
+  constexpr std::string_view mark = "\": row ";
+  const auto at = words.find(mark);
+  if (!words.starts_with("attribute \"") || at == words.npos || words.find("\": ") != at) return 0;
+  const std::string_view rest = words.substr(at + mark.size());
+  const auto row = parse_integer(rest.substr(0, rest.find_first_not_of("0123456789")));
+  return row && *row > 0 ? static_cast<std::size_t>(*row) : 0;
+}
+
 std::string with_names(std::string words, const Blackboard& board, const World& world) {
   const std::string mark = " row ";
   std::string place;
@@ -84,6 +93,20 @@ std::string with_declared(const std::string& words, const muster_plugin& plugin)
   std::vector<std::string> declared;
   for (uint32_t i = 0; i < plugin.param_count; ++i) declared.emplace_back(plugin.params[i].name);
   return "parameter " + quote(name) + " is used but not declared in params" + among(name, declared);
+}
+
+std::string no_text(const muster_param& declared) {
+  const std::string name = quote(declared.name), text = declared.text ? declared.text : "";
+  const std::string what = declared.kind == MUSTER_CHOICE      ? "a choice"
+                           : declared.kind == MUSTER_FLAG      ? "a flag"
+                           : declared.kind == MUSTER_REFERENCE ? "a reference"
+                                                               : "a number";
+  const std::string is = declared.kind == MUSTER_CHOICE      ? ", its place from 0 on in " + quote(text)
+                         : declared.kind == MUSTER_FLAG      ? ", 0 or 1"
+                         : declared.kind == MUSTER_REFERENCE ? ", the number of its row in the set " + quote(text)
+                                                             : "";
+  return "asks for the text of the parameter " + name + ", which is " + what + " and has none; expected s.param(" +
+         name + ")" + is;
 }
 
 }  // namespace muster

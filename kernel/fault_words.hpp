@@ -25,10 +25,16 @@ std::string with_names(std::string words, const Blackboard& board, const World& 
 // The attribute that words such as `attribute "peers": no radio is ...` are about, where the element has it; else null.
 const XmlAttribute* attribute_of(std::string_view words, const InstanceDeclaration& declared);
 
+// The number of the row that words about a file's attribute are of, `attribute "file": row 3 is ...`; 0: of none.
+std::size_t row_in_file(std::string_view words);
+
 // A file in the world's folder by the path that the user knows it by: as the world's own was given.
 std::string as_given(const std::string& words, const World& world, const Library::SearchPath& folders);
 
 // A plugin that asks for a parameter by a name that it has not declared is told which it has.
 std::string with_declared(const std::string& words, const muster_plugin& plugin);
+
+// Of a plugin that asks for the text of a parameter that has none: what it is, and the call that gives it.
+std::string no_text(const muster_param& declared);
 
 }  // namespace muster

@@ -49,6 +49,8 @@ struct Host {
     Instance& i = of(host);
     const auto own = i.texts_.find(path);
     if (own != i.texts_.end()) return own->second.c_str();
+    if (const int number = i.find_param(path); number >= 0)
+      return wrong(i, no_text(i.plugin_->params[number])), nullptr;
     const auto& texts = i.around_.world->texts;
     const auto found = texts.find(path);
     if (found != texts.end()) return found->second.c_str();
@@ -64,6 +66,12 @@ struct Host {
   static const char* place_text(Instance& i, const std::string& path) {
     const auto first = path.find('/'), last = path.rfind('/');
     const auto keep = [&](const std::string& text) { return i.texts_.emplace(path, text).first->second.c_str(); };
+    // "self/claim/0": the table of a claim by its number, for the message of a fault in it.
+    const std::string of_claim = "self/claim/";
+    if (path.rfind(of_claim, 0) == 0) {
+      const auto number = static_cast<std::size_t>(parse_integer(path.substr(of_claim.size())).value_or(-1));
+      return number < i.claims_.size() ? keep(i.claims_[number].name.text()) : nullptr;
+    }
     const World& world = *i.around_.world;
     if (path == "world/file") return keep(world.file.string());
     if (path == "world/dt") return keep(print_real(world.dt));
@@ -109,6 +117,10 @@ struct Host {
   static double param(const muster_host* host, const char* name) {
     Instance& i = of(host);
     const int found = i.find_param(name);
+    if (found >= 0 && i.texts_.count(name))
+      return wrong(i, std::string("asks for the number \"") + name + "\", which is a text; expected s.text(\"" + name +
+                          "\"), or host->text()"),
+             0;
     if (found >= 0) return i.params_[static_cast<std::size_t>(found)];
     std::vector<std::string> declared;
     for (uint32_t p = 0; p < i.plugin_->param_count; ++p) declared.emplace_back(i.plugin_->params[p].name);

@@ -142,8 +142,14 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   const std::string words = with_names(with_declared(in_one_line(said), *plugin_), *around_.board, *around_.world);
   // What is wrong in a file of the user's is told at its own place, whoever found it.
   const bool is_users = fault == Exit::invalid_input && (!tick || is_early);
-  if (const XmlAttribute* named = is_users ? attribute_of(words, declared_) : nullptr)
-    return Error(fault, named->value_place, words);
+  if (const XmlAttribute* named = is_users ? attribute_of(words, declared_) : nullptr) {
+    const int number = find_param(named->name);
+    const std::size_t row = number >= 0 && plugin_->params[number].kind == MUSTER_FILE ? row_in_file(words) : 0;
+    if (row == 0) return Error(fault, named->value_place, words);
+    const std::filesystem::path given = named->value, folder = around_.world->file.parent_path();
+    const Place at{(given.is_absolute() ? given : folder / given).string(), static_cast<int>(row) + 1, 0};  // + header
+    return Error(fault, at, words.substr(words.find("\": ") + 3));
+  }
   if (is_users && has_place(words)) return Error(fault, as_given(words, *around_.world, around_.search_path));
   return Error(fault, title() + ": " + (is_users ? "" : callback + " failed" + where + ": ") + words);
 }

@@ -21,6 +21,12 @@ bool explains(const std::string& help, const std::string& word) {
   return false;
 }
 
+// True if `word` is one of the parameter's choices, "open" of "closed|open".
+bool chooses(const muster_param& declared, const std::string& word) {
+  const std::string choices = '|' + std::string(declared.text ? declared.text : "") + '|';
+  return declared.kind == MUSTER_CHOICE && choices.find('|' + word + '|') != choices.npos;
+}
+
 }  // namespace
 
 std::string unknown_parameter(const std::string& path, const std::vector<ParameterInfo>& all,
@@ -34,6 +40,8 @@ std::string unknown_parameter(const std::string& path, const std::vector<Paramet
     if (owner_of(info.path) != owner) continue;
     own.push_back(info.path.substr(owner.size() + 1));
     if (explains(info.declared->help, name)) meant.push_back(own.back());
+    if (chooses(*info.declared, name))
+      return what + quote(name) + " is a value of " + quote(info.path) + "; expected that path, and the value " + name;
   }
   if (valid.empty()) return what + "this world has none, as no plugin has any or reads its elements";
   if (!below.empty()) return what + "it has several: " + expected_one_of(below);

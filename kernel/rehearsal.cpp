@@ -85,7 +85,8 @@ void Simulation::rehearse(const Occasion& occasion, const std::vector<Instance*>
   if (!occasion.when && occasion.tick >= world_.ticks)
     note("warning: " + occasion.place.text() + ": " + occasion.title + " comes at " +
          print_real(static_cast<double>(occasion.tick) * world_.dt) + " s, and the run ends at " +
-         print_real(world_.until()) + " s");
+         print_real(world_.until()) + " s, so that it never does; expected a time below " + print_real(world_.until()) +
+         " s, or a longer run (until)");
 }
 
 // A robot that leaves before it joins, or twice.

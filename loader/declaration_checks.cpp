@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace muster {
 namespace {
 
 // Sizes of the structs in the first kernel that knew them.
+constexpr std::size_t first_cause = offsetof(muster_cause, replaces);
 constexpr std::size_t first_law = offsetof(muster_law, apart) + sizeof(muster_law::apart);
 constexpr std::size_t first_clip = offsetof(muster_clip, choice) + sizeof(muster_clip::choice);
 constexpr std::size_t first_burst = offsetof(muster_burst, duration) + sizeof(muster_burst::duration);
@@ -95,9 +98,39 @@ void check_burst(const muster_plugin& plugin, const muster_burst& burst) {
   declared.expect_real("duration", burst.duration);
 }
 
+// Each {slot} of a cause's sentence names a parameter; "{offset|too high|too low}" says its sign in words.
+void check_title(const muster_plugin& plugin, std::string_view title) {
+  std::vector<std::string> names;
+  for (uint32_t k = 0; k < plugin.param_count; ++k) names.emplace_back(plugin.params[k].name);
+  const auto refuse = [&](const std::string& how) {
+    throw Refusal(fmt::format("registers \"{}\" whose cause has the title \"{}\", {}", plugin.id, title, how));
+  };
+  for (auto open = title.find('{'); open != title.npos; open = title.find('{', open + 1)) {
+    const auto close = title.find('}', open);
+    if (close == title.npos) refuse("with a { that no } ends");
+    const std::string slot(title.substr(open + 1, close - open - 1)), name = slot.substr(0, slot.find('|'));
+    if (std::ranges::count(names, name) == 0)
+      refuse(fmt::format("in which {{{}}} is no parameter; {}", name,
+                         names.empty() ? "the plugin has none" : suggest(name, names)));
+    if (const auto bars = std::ranges::count(slot, '|'); bars != 0 && bars != 2)
+      refuse(fmt::format("in which {{{}}} has {} words for the sign; expected {{{}|if positive|if negative}}", slot,
+                         bars, name));
+  }
+}
+
+void check_cause(const muster_plugin& plugin, const muster_cause& cause) {
+  if (cause.title) check_title(plugin, cause.title);
+  if (!cause.ranges_over) return;
+  const Declaration declared(plugin, "cause", cause.size, first_cause);
+  std::istringstream names(cause.ranges_over);  // one, or two with a blank between: "a b"
+  for (std::string name; names >> name;)
+    declared.expect_parameter("ranges_over", name.c_str(), {MUSTER_REFERENCE}, "a reference");
+}
+
 }  // namespace
 
 void check_declarations(const muster_plugin& plugin) {
+  if (plugin.cause) check_cause(plugin, *plugin.cause);
   if (plugin.law) check_law(plugin, *plugin.law);
   if (plugin.clip) check_clip(plugin, *plugin.clip);
   if (plugin.burst) check_burst(plugin, *plugin.burst);

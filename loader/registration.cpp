@@ -44,12 +44,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 void check_number(const std::string& of, const muster_param& p) {
-  if (std::isnan(p.min) || std::isnan(p.max) || p.min > p.max) refuse("{} has bounds {} to {}", of, p.min, p.max);
+  const std::string_view order = p.kind == MUSTER_REAL ? "real(name, default, least, most, unit, help)"
+                                                       : "integer(name, default, least, most, help)";
+  if (std::isnan(p.min) || std::isnan(p.max) || p.min > p.max)
+    refuse("{} has the default {} and bounds from {} to {}; expected the least first, in the order {}", of, p.value,
+           p.min, p.max, order);
   if ((p.flags & MUSTER_FREE) && !(std::isfinite(p.min) && std::isfinite(p.max)))
     refuse("{} is free for a fit, which needs finite bounds; it has {} to {}", of, p.min, p.max);
   if (p.flags & MUSTER_REQUIRED) return;  // its default is never used
   if (!std::isfinite(p.value) || p.value < p.min || p.value > p.max)
-    refuse("{} has the default {}, which is not in {} to {}", of, p.value, p.min, p.max);
+    refuse("{} has the default {}, which is not in {} to {}; expected the order {}", of, p.value, p.min, p.max, order);
   if (p.kind == MUSTER_INTEGER && p.value != std::floor(p.value))
     refuse("{} is an integer with default {}", of, p.value);
   if (p.kind == MUSTER_FLAG && p.value != 0 && p.value != 1) refuse("{} is a flag with default {}", of, p.value);

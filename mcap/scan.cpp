@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <set>
 
@@ -19,11 +20,24 @@ namespace {
 // A chunk, or another record, larger than this is refused: memory is bounded, whatever a file declares.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
+// Of a folder, such as ros2 bag makes: the MCAP files in it.
+std::string file_in(const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".mcap") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  if (files.empty()) return "; expected an MCAP file, and it has none";
+  return files.size() == 1 ? "; expected the MCAP file in it, " + files[0]
+                           : "; expected one of its MCAP files, such as " + files[0];
+}
+
 class File {
  public:
   explicit File(const std::filesystem::path& path) : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     struct stat about {};
     if (fd_ < 0 || ::fstat(fd_, &about) != 0) fail();
+    if (S_ISDIR(about.st_mode)) throw invalid({path.string()}, "is a folder" + file_in(path));
     if (!S_ISREG(about.st_mode)) throw invalid({path.string()}, "is no file; expected an MCAP file");
     size_ = static_cast<std::uint64_t>(about.st_size);
   }

@@ -108,11 +108,12 @@ class Board {
   }
 
   void warn_of_jammers_elsewhere(const Step& k, const Band& band) const {
+    constexpr double mega = 1e6;  // [Hz]
     const auto megahertz = [](const Band& b) {
-      return printed(b.low / 1e6) + (b.high > b.low ? " to " + printed(b.high / 1e6) : "") + " MHz";
+      return printed(b.low / mega) + (b.high > b.low ? " to " + printed(b.high / mega) : "") + " MHz";
     };
     for (const Jammer& jammer : channel_.jammers) {
-      if (share_of(jammer.band, band) > 0) continue;
+      if (share_of(jammer.band, band) > 0 || jammer.band.high < mega) continue;  // of another unit, as is told there
       k.warn("self", "radio '" + std::string(k.name("radio", jammer.radio)) + "' jams at " + megahertz(jammer.band) +
                          ", outside of this network's " + megahertz(band) +
                          ", and does nothing to it; expected a frequency inside");

@@ -16,4 +16,18 @@ inline double own_radio(const Setup& setup) {
   throw BadInput("the robot has no radio of its own name");
 }
 
+// Throws BadInput where the reference `attribute` names the radio `own`: nobody sends to itself, nor hears itself.
+// `whose`: "the robot's own radio".
+inline void expect_another_radio(const Setup& setup, const char* attribute, double own, const char* whose) {
+  if (setup.param(attribute) != own || own < 0) return;
+  const muster_host* host = setup.host();
+  std::string others;
+  for (uint32_t row = 0; row < host->rows(host, "radio"); ++row) {
+    if (row != own) others += (others.empty() ? "" : ", ") + std::string(host->row_name(host, "radio", row));
+  }
+  throw BadInput("attribute \"" + std::string(attribute) + "\": \"" +
+                 host->row_name(host, "radio", static_cast<uint32_t>(own)) + "\" is " + whose + "; expected another" +
+                 (others.empty() ? ", and the world has none" : ": " + others));
+}
+
 }  // namespace muster

@@ -166,7 +166,9 @@ SweepFile read_sweep(const std::filesystem::path& path) {
   check_attributes(root, {"world", "seeds", "until"});
   SweepFile result;
   result.file = path;
-  result.seeds = seeds_of(required(root, "seeds"));
+  const XmlAttribute& seeds = required(root, "seeds");
+  result.seeds = seeds_of(seeds);
+  result.seeds_place = seeds.value_place;
   if (const auto* until = root.attribute("until")) result.until = Word{until->value, until->value_place};
   std::size_t runs = result.seeds.size();
   for (const XmlElement& child : root.children) {

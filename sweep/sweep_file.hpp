@@ -40,6 +40,7 @@ struct SweepFile {
   Word world;  // of combinations where no <vary> has one
   std::optional<Word> until;
   std::vector<std::int64_t> seeds;
+  Place seeds_place;
   std::vector<Variation> varied;
   std::vector<MetricDeclaration> metrics;  // none: the usual ones
 

@@ -18,8 +18,18 @@ bool is_word(std::string_view text) {
   return true;
 }
 
-[[noreturn]] void refuse(std::string_view word, const char* why) {
+[[noreturn]] void refuse(std::string_view word, const std::string& why) {
   throw std::invalid_argument("column \"" + std::string(word) + "\" " + why);
+}
+
+// Units in other brackets, "sum(m)" or "sum{m}", and behind a slash or a hyphen: "sum/m".
+std::string with_unit(std::string_view word) {
+  const auto mark = word.find_first_of("({</-");
+  if (mark == 0 || mark == word.npos) return "";
+  const auto end = word.find_first_of(")}>", mark);
+  const std::string_view unit = word.substr(mark + 1, end == word.npos ? end : end - mark - 1);
+  if (unit.empty() || !is_word(word.substr(0, mark))) return "";
+  return ": " + std::string(word.substr(0, mark)) + '[' + std::string(unit) + ']';
 }
 
 // Columns that are parted by something else than blanks.
@@ -40,7 +50,8 @@ bool is_word(std::string_view text) {
 std::size_t parse_word(std::string_view word, Column& column) {
   const auto marks = word.find_first_of(":[{*?~+");
   column.name = word.substr(0, marks);
-  if (!is_word(column.name)) refuse(word, "has no name of letters, digits and _");
+  if (!is_word(column.name))
+    refuse(word, "has no name of letters, digits and _; expected name, or name[unit]" + with_unit(word));
   std::size_t count = 1;
   std::string_view rest = marks == word.npos ? std::string_view{} : word.substr(marks);
   while (!rest.empty()) {
@@ -70,7 +81,7 @@ std::size_t parse_word(std::string_view word, Column& column) {
     } else if (mark == '+' && !column.reference.empty()) {
       column.joins = true;
     } else {
-      refuse(word, "is not of the form name:set[unit]{}*count?~");
+      refuse(word, "is not of the form name:set[unit]{}*count?~" + with_unit(word));
     }
     rest.remove_prefix(used);
   }

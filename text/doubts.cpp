@@ -16,6 +16,7 @@ constexpr double strongest = 60;             // dBm, a kilowatt; radios of robot
 constexpr double thickest = 2, longest = 3;  // m, of a wall and from a robot to its antenna
 constexpr double highest = 200;              // m, of a wall or a door
 constexpr double narrowest = 1000;           // Hz, of a jammer's or a receiver's band
+constexpr double lowest = 1e6;               // Hz, of a carrier
 constexpr double deafest = -50;              // dBm; the lowest reading of a radio is some -100
 constexpr double globe = 1e6;                // m; bound of places, beyond which are those of UTM
 constexpr double loudest = 30;               // dBm, a watt: no link is as strong
@@ -34,6 +35,13 @@ std::string about(double value, int digits = 4) {
 std::string in_centimetres(double value) {
   return print_real(value) + " m; is this centimetres? " + print_real(value) + " cm are " + about(value * centimetre) +
          " m";
+}
+
+// Of a frequency that may be in GHz, MHz or kHz: `power` is that of ten.
+std::string in_hertz(double value, int power) {
+  const std::string unit = (power == 9 ? "GHz" : power == 6 ? "MHz" : "kHz"), number = print_real(value);
+  return number + " Hz; is this " + unit + "? " + number + ' ' + unit + " are " + number + 'e' + std::to_string(power) +
+         " Hz";
 }
 
 std::string in_dbm(double milliwatts) { return about(10 * std::log10(milliwatts)) + " dBm"; }
@@ -59,8 +67,10 @@ std::string unit_doubt(std::string_view name, std::string_view unit, double valu
   if (unit == "dBm" && name == "least" && value > deafest)
     return print_real(value) + " dBm: each weaker reading, which is nearly every one, is given as it; expected some " +
            "-100 dBm";
-  if (unit == "Hz" && name == "bandwidth" && value > 0 && value < narrowest)
-    return print_real(value) + " Hz; is this MHz? " + print_real(value) + " MHz are " + print_real(value) + "e6 Hz";
+  if (unit == "Hz" && value > 0) {
+    if (name == "frequency" && value < lowest) return in_hertz(value, value < 100 ? 9 : value < 1e5 ? 6 : 3);
+    if (name == "bandwidth" && value < narrowest) return in_hertz(value, value < 1 ? 9 : 6);
+  }
   if (name == "duty" && value == 0) return "0: it is never on";
   if (unit == "m" && name == "height" && value > highest) return in_centimetres(value);
   if (unit == "m" && ((name == "thickness" && value > thickest) || (name == "antenna" && std::abs(value) > longest)))

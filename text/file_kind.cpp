@@ -45,6 +45,8 @@ std::string file_kind(std::string_view bytes) {
     return "a program or a library";
   if (bytes.starts_with("PAR1")) return "a Parquet file";
   if (bytes.starts_with("muster.snapshot.")) return "a snapshot of muster";
+  if (bytes.starts_with("QGC WPL ") || bytes.starts_with("\xEF\xBB\xBFQGC WPL "))
+    return "a flight plan of QGroundControl";
   if (is_dxf(bytes)) return "a DXF drawing";
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   const char c = first == bytes.npos ? '\0' : bytes[first];

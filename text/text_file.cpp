@@ -140,7 +140,8 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw invalid(place, "is UTF-16; expected UTF-8");
   if (text.starts_with("\x1F\x8B")) throw invalid(place, "is compressed by gzip; expected plain text");
   if (const std::string kind = file_kind(text.substr(0, 256));
-      !kind.empty() && kind != "XML" && kind != "JSON" && kind != "a DXF drawing" && kind != "a snapshot of muster")
+      !kind.empty() && kind != "XML" && kind != "JSON" && kind != "a DXF drawing" && kind != "a snapshot of muster" &&
+      kind != "a flight plan of QGroundControl")
     throw invalid(place, "is " + kind + "; expected plain text" +
                              (kind == "compressed by zstd"
                                   ? ", or of a bundle of muster: muster bundle check " + path.filename().string()

@@ -65,7 +65,11 @@ TextTable TextTable::read(const std::filesystem::path& path) {
     throw invalid({table.file()}, "is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
   if (const std::string kind = file_kind(std::string_view(table.file_.text).substr(0, 256)); !kind.empty())
     throw invalid(table.file_.place(0),
-                  "begins as " + kind + " does; expected a table: a header of names, and ',' between cells");
+                  "begins as " + kind + " does; expected a table: a header of names, and ',' between cells" +
+                      (kind.ends_with("QGroundControl")
+                           ? ", such as x[m],y[m],z[m], in metres from an origin of your own (a degree of latitude is "
+                             "some 111200 m, one of longitude that times cos(latitude))"
+                           : ""));
   table.split();
   table.read_header();
   return table;
@@ -206,6 +210,12 @@ std::string TextTable::nameless(std::size_t column) const {
   if (column == 0)
     return "the header begins with a comma, so that the first column has no name, as the index that pandas writes; "
            "expected to_csv(..., index=False): cut -d, -f2- FILE takes it away";
+  bool is_rest = true;
+  for (std::size_t c = column; c < width_; ++c) is_rest = is_rest && raw(0, c).empty();
+  if (const std::string count = std::to_string(width_ - column); is_rest)
+    return "the header ends in " + count + " commas, so that columns " + std::to_string(column + 1) + " to " +
+           std::to_string(width_) + " have no name; expected none there, nor at the end of the rows: sed -E 's/,{" +
+           count + "}\\r*$//' FILE takes them away";
   return "two commas stand side by side in the header, so that column " + std::to_string(column + 1) +
          " has no name; expected name or name[unit]";
 }

@@ -135,10 +135,33 @@ bool is_element(const Standard& standard, std::string_view name) {
                      [&](const auto& known) { return name == known.name; });
 }
 
+// Numbers in an element as its attributes: at="2 1 1.5" of <station>2 1 1.5</station>; "" where it has none of so many.
+std::string as_attributes(const Element& element, std::string_view text) {
+  std::istringstream words{std::string(text)};
+  std::vector<std::string> numbers;
+  for (std::string word; words >> word; numbers.push_back(word))
+    if (!parse_real(word)) return "";
+  std::string result;
+  std::size_t taken = 0;
+  for (const Attribute& attribute : element.attributes) {
+    const auto count = static_cast<std::size_t>(attribute.count);
+    const bool is_number = attribute.param.kind == MUSTER_REAL && (attribute.param.flags & MUSTER_REQUIRED);
+    if (!is_number || taken + count > numbers.size()) continue;
+    result += (result.empty() ? "" : " ") + std::string(attribute.param.name) + "=\"";
+    for (std::size_t i = 0; i < count; ++i) result += (i > 0 ? " " : "") + numbers[taken++];
+    result += '"';
+  }
+  return !numbers.empty() && taken == numbers.size() ? result : "";
+}
+
 // SDF's <pose>x y z roll pitch yaw</pose>. A text in an element that a world has not is that element's fault, and told
 // at its place: throws FaultOfElement.
 std::string in_place_of_text(const Standard& standard, const std::vector<std::string_view>& open,
                              std::string_view text) {
+  for (const Element& known : standard.elements) {
+    const std::string given = open.size() == 2 && open[1] == known.name ? as_attributes(known, text) : "";
+    if (!given.empty()) return "expected it as an attribute: <" + std::string(known.name) + ' ' + given + "/>";
+  }
   if (open.size() < 3) return "";
   const std::string_view own = open.back(), around = open[open.size() - 2];
   if (!is_element(standard, open[1]))

@@ -33,7 +33,8 @@ std::string other_scale(const Dataset& data) {
   }
   if (low >= 128 && high <= 255)
     return "; whole numbers from 128 to 255 are an unsigned byte: rssi[dBm] = 1*COLUMN - 256";
-  if (low >= 0 && high <= 100 && high > low) return "; a quality in per cent is no level";
+  if (low >= 0 && high <= 100 && high > low)
+    return "; a quality in per cent is no level: where it is Windows', rssi[dBm] = 0.5*COLUMN - 100 is about it";
   return "";
 }
 

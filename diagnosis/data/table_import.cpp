@@ -66,6 +66,7 @@ class Importer {
     for (std::size_t f = 0; f < source_.files().size(); ++f) {
       for (std::size_t row = 0; row < source_.files()[f].rows(); ++row) rows_.push_back({f, row});
     }
+    for (const ColumnRule& rule : map_.columns) refuse_quoted_column(rule);
     find_origin();
     leave_out_rows_without_place();
     read_times();
@@ -136,6 +137,22 @@ class Importer {
       from = static_cast<std::size_t>(at->position() + at->length());
     }
     return result + words.substr(from);
+  }
+
+  // A name for all rows that is also a column of names: quotes are meant for one name, and not for the column.
+  void refuse_quoted_column(const ColumnRule& rule) const {
+    if (!rule.is_name || rule.name.empty()) return;
+    for (const ForeignTable& table : source_.files()) {
+      if (!table.has(rule.name)) continue;
+      const std::size_t column = table.require(rule.name, rule.place);
+      for (std::size_t row = 0; row < table.rows(); ++row) {
+        if (table.text(row, column).empty() || parse_real(table.text(row, column))) continue;
+        throw invalid(rule.place, quote(rule.name) + " in quotes is the same name in all rows, and " + table.file() +
+                                      " has a column " + rule.name + ", with names such as " +
+                                      quote(table.text(row, column)) + "; expected " + rule.column.name + " = name " +
+                                      rule.name + ", or another name");
+      }
+    }
   }
 
   // Checks a rule against the format's definition of its column.

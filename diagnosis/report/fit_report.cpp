@@ -171,6 +171,26 @@ void name_unsettled(Fit& fit, const Dataset& data) {
   }
 }
 
+// A parameter of random draws moves no mean, and means are fitted: what tests it is told beside.
+void explain_draws(Fit& fit, const Simulation& run) {
+  for (const FitParameter& p : fit.parameters) {
+    const std::string blind = "no reading depends on " + p.path;
+    const auto told = std::find(fit.not_identifiable.begin(), fit.not_identifiable.end(), blind);
+    const auto slash = p.path.find('/');
+    if (told == fit.not_identifiable.end() || slash == p.path.npos) continue;
+    const std::string name = p.path.substr(slash + 1);
+    for (const auto& instance : run.instances()) {
+      const muster_plugin& plugin = instance->plugin();
+      const bool is_of_draws = (plugin.draw && (name == plugin.draw->scale || name == plugin.draw->distance)) ||
+                               (plugin.law && name == plugin.law->strength);
+      if (instance->name() != p.path.substr(0, slash) || !is_of_draws) continue;
+      *told +=
+          ", which is of random draws: a fit moves means, and these have none; muster diagnose holds the draws "
+          "that the world declares against the scatter of the data";
+    }
+  }
+}
+
 }  // namespace
 
 FitReport::FitReport(const std::filesystem::path& world, const std::filesystem::path& data,
@@ -189,6 +209,7 @@ FitReport::FitReport(const std::filesystem::path& world, const std::filesystem::
   maps_ = cell_maps(model_, fit_, options_.average == Average::dB ? fit_.mean : model_.drawn(), options_);
   errors_ = cell_errors(maps_, fit_, options_);
   name_unsettled(fit_, data_);
+  explain_draws(fit_, model_.simulation());
 }
 
 void FitReport::draw(const std::filesystem::path& folder) {

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <muster/plugin_traits.hpp>
 #include <muster/random.hpp>
+#include <muster/rows.hpp>
 #include <muster/tables.hpp>
 #include <stdexcept>
 #include <string>
@@ -65,27 +66,6 @@ inline double null() {
 }
 inline bool is_null(double value) { return value != value; }
 
-// View of a table's rows as structs of doubles.
-template <class Row>
-class Rows {
- public:
-  using Double = std::conditional_t<std::is_const_v<Row>, const double, double>;
-  static_assert(sizeof(Row) % sizeof(double) == 0 && std::is_trivially_copyable_v<Row>, "a row is doubles and no more");
-
-  Rows(Double* data, std::size_t rows) : begin_(reinterpret_cast<Row*>(data)), size_(rows) {}
-  Row* begin() const { return begin_; }
-  Row* end() const { return begin_ + size_; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  Row& operator[](std::size_t i) const { return begin_[i]; }
-  Row* operator->() const { return begin_; }  // the row of a claim on a single row
-  Row& operator*() const { return *begin_; }
-
- private:
-  Row* begin_;
-  std::size_t size_;
-};
-
 // Claimed tables: the row type travels with the index, so step() cannot read one as another.
 template <class Row>
 struct In {
@@ -127,7 +107,7 @@ class Setup {
 
   template <class Row>
   In<Row> read(const std::string& table, uint32_t flags = 0) {
-    return {claimed(host_->claim(host_, MUSTER_READ, flags, table.c_str(), Row::columns))};
+    return {claim<Row>(MUSTER_READ, flags, table)};
   }
   template <class Row>
   In<Row> read_if_any(const std::string& table) {
@@ -135,19 +115,20 @@ class Setup {
   }
   template <class Row>
   Out<Row> write(const std::string& table, uint32_t flags = 0) {
-    return {claimed(host_->claim(host_, MUSTER_WRITE, flags, table.c_str(), Row::columns))};
+    return {claim<Row>(MUSTER_WRITE, flags, table)};
   }
   template <class Row>
   Out<Row> add(const std::string& table) {
-    return {claimed(host_->claim(host_, MUSTER_ADD, 0, table.c_str(), Row::columns))};
+    return {claim<Row>(MUSTER_ADD, 0, table)};
   }
   template <class Row>
   Stage<Row> modify(const std::string& table) {
-    return {claimed(host_->claim(host_, MUSTER_MODIFY, 0, table.c_str(), Row::columns))};
+    return {claim<Row>(MUSTER_MODIFY, 0, table)};
   }
   // The CSV file that a parameter names; Row::columns are its columns.
   template <class Row>
   In<Row> file(const char* param) {
+    check_type<Row>();
     return {claimed(host_->file(host_, param, Row::columns))};
   }
 
@@ -159,7 +140,9 @@ class Setup {
     throw std::logic_error(std::string("parameter \"") + name + "\" is used but not declared");
   }
   double param(const char* name) const { return host_->param(host_, name); }
+  // A text or file parameter by its name, or a text of the world by its path; "" where there is none.
   std::string text(const std::string& path) const {
+    if (path.find('/') == path.npos) value(path.c_str());  // throws where it is not declared
     const char* found = host_->text(host_, path.c_str());
     return found ? found : "";
   }
@@ -169,6 +152,16 @@ class Setup {
   const muster_host* host() const { return host_; }
 
  private:
+  template <class Row>
+  static constexpr void check_type() {
+    static_assert(detail::is_one_double_a_column<Row>(0),
+                  "a row type has one double for each of its columns: no float, no int, none too few or too many");
+  }
+  template <class Row>
+  int claim(uint32_t kind, uint32_t flags, const std::string& table) {
+    check_type<Row>();
+    return claimed(host_->claim(host_, kind, flags, table.c_str(), Row::columns));
+  }
   static int claimed(int index) {
     if (index < 0) throw std::runtime_error("");
     return index;
@@ -186,24 +179,24 @@ class Step {
 
   template <class Row>
   Rows<const Row> operator[](In<Row> t) const {
-    return {in_[t.index].data, in_[t.index].rows};
+    return {in_[t.index].data, in_[t.index].rows, t.index};
   }
   template <class Row>
   Rows<Row> operator[](Out<Row> t) const {
-    return {out_[t.index].data, out_[t.index].rows};
+    return {out_[t.index].data, out_[t.index].rows, t.index};
   }
   template <class Row>
   Rows<Row> operator[](Stage<Row> t) const {
-    return {out_[t.index].data, out_[t.index].rows};
+    return {out_[t.index].data, out_[t.index].rows, t.index};
   }
   // Rows that an Out claim last published, or that precede a Stage.
   template <class Row>
   Rows<const Row> last(Out<Row> t) const {
-    return {in_[t.index].data, in_[t.index].rows};
+    return {in_[t.index].data, in_[t.index].rows, t.index};
   }
   template <class Row>
   Rows<const Row> before(Stage<Row> t) const {
-    return {in_[t.index].data, in_[t.index].rows};
+    return {in_[t.index].data, in_[t.index].rows, t.index};
   }
   double operator[](Value v) const { return tick_->params[v.index]; }
 
@@ -215,7 +208,7 @@ class Step {
   // Queues and listed sets: appends `rows` more rows, to be filled.
   template <class Row>
   Rows<Row> append(Out<Row> t, std::size_t rows) const {
-    return {host_->append(host_, t.index, static_cast<uint32_t>(rows)), rows};
+    return {host_->append(host_, t.index, static_cast<uint32_t>(rows)), rows, t.index};
   }
   template <class Row>
   std::string_view bytes(In<Row> t, std::size_t row, unsigned column) const {
@@ -301,6 +294,9 @@ bool guarded(const muster_host* host, Body&& body) noexcept {
     return true;
   } catch (const BadInput& e) {
     host->refuse(host, e.what());
+  } catch (const NoRow& e) {
+    const char* table = host->text(host, ("self/claim/" + std::to_string(e.claim)).c_str());  // null: an older kernel
+    host->error(host, in_words(e, table).c_str());
   } catch (const std::runtime_error& e) {
     if (*e.what()) host->error(host, e.what());
   } catch (const std::exception& e) {

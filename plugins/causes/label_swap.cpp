@@ -35,7 +35,10 @@ struct LabelSwap {
       : a(s.value("a")),
         b(s.value("b")),
         endpoint(s.modify<Endpoint>("endpoint/*/radio")),
-        pose(s.modify<Pose>("endpoint/*/pose")) {}
+        pose(s.modify<Pose>("endpoint/*/pose")) {
+    if (s.param("a") == s.param("b"))
+      s.warn("self", "a and b are the same radio, so that nothing is exchanged; expected two radios");
+  }
 
   void step(const Step& k) const {
     const auto before = k.before(pose);

@@ -44,7 +44,12 @@ struct People {
         share(s.value("share")),
         duration(s.value("duration")),
         random(s.stream("people")),
-        links(s) {}
+        links(s) {
+    if (s.param("radio") >= 0 && s.param("radio") == s.param("other"))
+      s.warn("self",
+             "radio and other are the same radio, which has no link to itself, so that nobody is in the way; "
+             "expected two radios");
+  }
 
   void step(const Step& k) const {
     links.add(k, [&](const End& from, const End& to) {

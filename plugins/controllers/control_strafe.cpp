@@ -3,7 +3,10 @@
 #include <cmath>
 #include <muster/ground_drives.hpp>
 #include <muster/plugin.hpp>
+#include <string>
+#include <vector>
 
+#include "description/world_robots.hpp"
 #include "plugins/heading.hpp"
 #include "roadmap.hpp"
 
@@ -47,7 +50,28 @@ struct ControlStrafe {
         odometry(s.read<Odometry>("robot/{robot}/odometry")),
         command(s.write<Command>("robot/{robot}/command")),
         sideways(s.write<Sideways>("robot/{robot}/sideways")),
-        progress(s.write<Progress>("self/progress")) {}
+        progress(s.write<Progress>("self/progress")) {
+    expect_rollers(s);
+  }
+
+  static void expect_rollers(const Setup& s) {
+    const auto row = static_cast<uint32_t>(s.param("robot"));
+    const description::WorldRobots robots(s, description::Meshes::skip);
+    const auto* robot = robots.of(row + 1.0);
+    if (robot && robot->drive && robot->drive->mecanum) return;
+    const std::string name = s.host()->row_name(s.host(), "robot", row);
+    std::vector<std::string> folders;
+    for (uint32_t i = 0; const char* next = s.host()->search_path(s.host(), i); ++i)
+      folders.push_back(std::string(next) + "/models");
+    std::string have;
+    for (const std::string& each : description::models_with("<mecanum", folders))
+      have += (have.empty() ? "" : ", ") + each;
+    throw BadInput("the model \"" + s.text("robot/" + name + "/model") + "\" of robot \"" + name + "\" (" +
+                   s.text("robot/" + name + "/place") +
+                   ") has no wheels with rollers (<mecanum>), so that it cannot go sideways; expected "
+                   "<control.waypoint/>, which turns" +
+                   (have.empty() ? "" : ", or a model that has them: " + have));
+  }
 
   void step(const Step& k) const {
     const auto points = k[path];

@@ -15,11 +15,9 @@ class LinkIndex {
 
   LinkIndex(Rows<const Ends> links, Rows<const Endpoint> endpoints) {
     entries_.reserve(links.size());
-    const auto radio = [&](double end) {
-      return static_cast<std::size_t>(endpoints[static_cast<std::size_t>(end)].radio);
-    };
-    for (std::size_t i = 0; i < links.size(); ++i)
-      entries_.emplace_back(key(radio(links[i].tx), radio(links[i].rx)), i);
+    const Endpoint* const at = endpoints.begin();  // ends are checked row numbers
+    const auto radio = [&](double end) { return static_cast<std::size_t>(at[static_cast<std::size_t>(end)].radio); };
+    for (const Ends& link : links) entries_.emplace_back(key(radio(link.tx), radio(link.rx)), entries_.size());
     // Links of living radios are listed in order already.
     if (!std::is_sorted(entries_.begin(), entries_.end())) std::sort(entries_.begin(), entries_.end());
   }

@@ -61,11 +61,7 @@ struct PhysicsSimbody {
       "downwash and ground effect of rotors.";
   static constexpr auto phase = MUSTER_PHYSICS;
   static constexpr bool keeps_only_caches = true;
-  static constexpr auto abilities =
-      description::Ability::wheels | description::Ability::steering | description::Ability::mecanum |
-      description::Ability::rotors | description::Ability::legs | description::Ability::height |
-      description::Ability::tilting | description::Ability::hinges | description::Ability::sliders |
-      description::Ability::balls | description::Ability::bouncing | description::Ability::pushed;
+  static constexpr auto abilities = description::abilities_of_simbody;
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       real("leg_step", 0.1, 1e-6, 0.1, "s", "as step, of robots that walk and who may meet them"),

@@ -27,7 +27,8 @@ class GainTable {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (std::abs(rows[i].azimuth) > half_turn + slack || std::abs(rows[i].elevation) > half_turn / 2 + slack)
         throw refused("row " + std::to_string(i + 1) + " is " + place(rows[i].azimuth, rows[i].elevation) +
-                      "; expected radians, an azimuth within -pi and pi and an elevation within -pi/2 and pi/2");
+                      "; expected radians, an azimuth within -pi and pi and an elevation within -pi/2 and pi/2" +
+                      in_degrees(rows));
       azimuths_.push_back(rows[i].azimuth), elevations_.push_back(rows[i].elevation);
     }
     for (auto* each : {&azimuths_, &elevations_}) {
@@ -57,6 +58,13 @@ class GainTable {
   }
 
  private:
+  // Where all are within half a turn in degrees.
+  static std::string in_degrees(Rows<const MeasuredGain> rows) {
+    for (const MeasuredGain& row : rows)
+      if (std::abs(row.azimuth) > 360 || std::abs(row.elevation) > 90) return "";
+    return "; are these degrees? a degree is 0.017453293 rad";
+  }
+
   static constexpr double slack = 1e-3;       // rad, of pi written with three digits or more
   static constexpr double calibration = 0.5;  // dB
 

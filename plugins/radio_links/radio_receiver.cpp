@@ -25,15 +25,18 @@ struct RadioReceiver {
         rssi(s.write<Rssi>("link/*/rssi")) {}
 
   void step(const Step& k) const {
-    const auto levels = k[level];
-    const auto gains = k[fading];
-    const auto out = k[rssi];
+    const std::size_t links = k[rssi].size();
+    if (links == 0) return;
+    const Level* const levels = k[level].begin();  // a row a link, as out
+    const Fading* const gains = k[fading].begin();
+    const bool fades = !k[fading].empty(), expected = k.expected();
+    Rssi* const out = k[rssi].begin();
     const double least = k[sensitivity];
-    for (std::size_t i = 0; i < out.size(); ++i) out[i].rssi = gains.empty() ? 1 : gains[i].gain;
-    if (!out.empty()) log10_of_all(&out[0].rssi, out.size());
-    for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t i = 0; i < links; ++i) out[i].rssi = fades ? gains[i].gain : 1;
+    log10_of_all(&out->rssi, links);
+    for (std::size_t i = 0; i < links; ++i) {
       const double received = levels[i].level + 10 * out[i].rssi;
-      out[i].rssi = received >= least || k.expected() ? received : null();
+      out[i].rssi = received >= least || expected ? received : null();
     }
   }
 

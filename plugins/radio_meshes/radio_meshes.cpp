@@ -50,6 +50,7 @@ included, and the same both ways.)";
   // Rebuilds the scene only when a mesh has changed.
   void place(const Step& k) {
     if (scene && same(k[shape], shapes_kept)) return;
+    if (shapes_kept.empty()) meshes.warn_of_sizes(k, k[shape], k[pose]);
     scene.reset();
     ends_kept.clear();
     scene.emplace(meshes.placed(k[shape]));

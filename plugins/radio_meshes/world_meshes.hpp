@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mesh_scene.hpp"
+#include "plugins/mesh_sizes.hpp"
 #include "plugins/world_folder.hpp"
 
 namespace muster {
@@ -34,6 +35,17 @@ class WorldMeshes {
       } catch (const std::runtime_error& wrong) {
         throw BadInput("mesh \"" + names_.back() + "\": the file \"" + file + "\" " + wrong.what());
       }
+    }
+  }
+
+  // Warns of meshes that are far larger than the places of radios.
+  template <class Places>
+  void warn_of_sizes(const Step& k, Rows<const MeshShape> shapes, const Places& radios) const {
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+      Eigen::AlignedBox3d box;
+      for (const auto& vertex : meshes_[i].vertices) box.extend(vertex);
+      if (box.isEmpty() || radios.empty()) continue;
+      warn_of_size(k, names_[i], box.sizes().maxCoeff(), shapes[i].scale, extent_of(radios), "radios");
     }
   }
 

@@ -2,9 +2,13 @@
 #include <cmath>
 #include <muster/ground_drives.hpp>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "description/file_text.hpp"
 #include "description/world_robots.hpp"
+#include "plugins/world_folder.hpp"
 #include "ramp.hpp"
 
 namespace {
@@ -49,8 +53,10 @@ struct RobotsDrive {
       : noise(s.value("noise")),
         stream(s.stream("actuation")),
         robots(s, description::Meshes::skip),
+        folder(world_folder(s.host())),
         command(s.read_if_any<Command>("robot/*/command")),
         flight(s.read_if_any<AttitudeThrust>("robot/*/attitude_thrust")),
+        sideways(s.read_if_any<Sideways>("robot/*/sideways")),
         drive(s.write<Drive>("robot/*/drive")),
         reached(s.write<Reached>("robot/*/drive_reached")) {
     if (robots.any_steers()) {
@@ -58,7 +64,6 @@ struct RobotsDrive {
       steered = s.write<Steered>("robot/*/steering_reached");
     }
     if (!robots.any_mecanum()) return;
-    sideways = s.read_if_any<Sideways>("robot/*/sideways");
     rear_drive = s.write<Drive>("robot/*/rear_drive");
     rear_reached = s.write<RearReached>("robot/*/rear_drive_reached");
   }
@@ -76,6 +81,7 @@ struct RobotsDrive {
       if (rear_drive) k[*rear_drive][i] = {0, 0, 0, 0}, k[*rear_reached][i] = {0, 0};
       const auto* motors = robots.drive_of(model);
       if (i >= commands.size() || !k.alive("robot", i)) continue;
+      if (!motors || !motors->mecanum) warn_of_sideways(k, i);
       if (motors && k.tick() <= 1) warn_of_slow(k, i, commands[i], *motors);
       if (motors && motors->steering)
         steer(k, i, commands[i], *motors);
@@ -106,10 +112,34 @@ struct RobotsDrive {
                                   name + "\"/> and <control.path3d robot=\"" + name + "\" path=\"...\"/>");
       return;
     }
-    k.warn("robot/" + name, robot_is + "has no drive, so that it does not move" + wheels_in_words(*robot) +
+    if (const std::string others = description::wheels_about_others(*robot); !others.empty())
+      return k.warn("robot/" + name, robot_is + "has no drive, so that it does not move: " + beside_the_world(others));
+    k.warn("robot/" + name, robot_is + "has no drive, so that it does not move" +
+                                beside_the_world(wheels_in_words(*robot)) +
                                 "<muster><differential left=\"\" right=\"\" "
                                 ".../></muster> in " +
-                                robot->file + ", or in a file of fittings");
+                                beside_the_world(robot->file) + ", or in a file of fittings");
+  }
+
+  // Paths of files in the world's folder without it.
+  std::string beside_the_world(std::string words) const {
+    const std::string begin = folder + '/';
+    for (auto at = words.find(begin); at != words.npos; at = words.find(begin, at)) words.erase(at, begin.size());
+    return words;
+  }
+
+  // Once of each robot that is asked to go sideways and has no rollers.
+  void warn_of_sideways(const Step& k, std::size_t i) const {
+    const auto* robot = robots.of(k[reached][i].model);
+    if (i >= k[sideways].size() || k[sideways][i].v == 0 || !robot) return;
+    warned_of_sideways.resize(k[drive].size());
+    if (std::exchange(warned_of_sideways[i], 1)) return;
+    const std::string name(k.name("robot", i));
+    k.warn("robot/" + name, "robot '" + name + "' is commanded to go sideways (robot/" + name +
+                                "/sideways), and its model '" + robot->name +
+                                "' has no wheels with rollers (<mecanum>), so that it does not; expected a "
+                                "controller that turns, such as control.waypoint in place of control.strafe, or a "
+                                "model with rollers, such as youbot");
   }
 
   // Of the first command that is far beyond the drive. One of which the description says itself that it creeps is not
@@ -188,7 +218,7 @@ struct RobotsDrive {
     const Reached& front = k.last(reached)[i];
     const RearReached& rear = k.last(*rear_reached)[i];
     const FourRates from{front.left, front.right, rear.left, rear.right};
-    const double across = i < k[*sideways].size() ? k[*sideways][i].v : 0;
+    const double across = i < k[sideways].size() ? k[sideways][i].v : 0;
     const FourRates goal = limited(motors.mecanum->rates({asked.v, across, asked.w}), motors.max_speed);
     const FourRates to = ramped(from, goal, motors.max_acceleration * k.dt());
     set(k, i, {from[0], from[1]}, {to[0], to[1]});
@@ -206,13 +236,15 @@ struct RobotsDrive {
   Value noise;
   Stream stream;
   WorldRobots robots;
+  std::string folder;
   In<Command> command;
   In<AttitudeThrust> flight;  // by which some controller flies robots
+  In<Sideways> sideways;
   Out<Drive> drive;
   Out<Reached> reached;
   std::optional<Out<SteeringAngle>> steering;  // where a robot has any
   std::optional<Out<Steered>> steered;
-  std::optional<In<Sideways>> sideways;  // where a robot has rollers
+  mutable std::vector<char> warned_of_sideways;  // not of the run's state: after a restore, it is told again
   std::optional<Out<Drive>> rear_drive;
   std::optional<Out<RearReached>> rear_reached;
 };

@@ -12,6 +12,7 @@
 #include "body_frame.hpp"
 #include "description/mesh.hpp"
 #include "description/world_robots.hpp"
+#include "plugins/mesh_sizes.hpp"
 #include "plugins/periods.hpp"
 #include "plugins/scene_rows.hpp"
 #include "plugins/world_folder.hpp"
@@ -103,6 +104,8 @@ Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 M
 
   void step(const Step& k) {
     if (!is_due(k.time(), k.dt(), 1 / k[rate]) || !k.alive("robot", self)) return;
+    for (std::size_t i = 0; i < lengths.size() && !view; ++i)
+      warn_of_size(k, std::string(k.name("mesh", i)), lengths[i], k[mesh][i].scale, extent_of(k[pose]), "robots");
     if (!view || view->width() != static_cast<int>(k[width]) || view->height() != static_cast<int>(k[height]) ||
         fov_of_view != k[fov])
       view.emplace(static_cast<int>(k[width]), static_cast<int>(k[height]), fov_of_view = k[fov]);
@@ -223,6 +226,9 @@ Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 M
       } catch (const std::runtime_error& wrong) {
         throw BadInput("mesh \"" + name + "\": the file \"" + file + "\" " + wrong.what());
       }
+      // What counts it for the radio warns itself.
+      if (setup.text("world/radio.meshes/place").empty())
+        lengths.push_back(description::bounds(shape).sizes().maxCoeff());
       meshes.push_back(facets_of(shape, {}));
       meshes.back().is_sheet = true;  // from a file: its faces may be turned either way
     }
@@ -244,7 +250,8 @@ Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 M
   std::vector<std::string> models;  // of the robots of the world file
   std::map<const description::Robot*, std::vector<Facets>> bodies;
   std::vector<Facets> meshes;
-  std::optional<View> view;  // its memory is kept from picture to picture
+  std::vector<double> lengths;  // of meshes [m]; none where another plugin tells of them
+  std::optional<View> view;     // its memory is kept from picture to picture
   double fov_of_view = 0;
 };
 

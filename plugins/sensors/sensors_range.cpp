@@ -74,6 +74,7 @@ air, the time that a measurement takes.)";
         range(s.write<Range>("range/*/message", MUSTER_SENSED)) {
     if (!s.text("biases").empty()) biases = s.file<PairBias>("biases");
     for (const std::string& name : names_in(s.host(), "peers")) peers.push_back(radio_named(s, name));
+    if (robot >= 0 && peers.size() == 1) expect_no_own(s);
   }
 
   void step(const Step& k) const {
@@ -95,6 +96,16 @@ air, the time that a measurement takes.)";
 
  private:
   using Stated = std::map<std::pair<std::size_t, std::size_t>, double>;
+
+  // Its own radio as the only peer: there is no distance to it.
+  void expect_no_own(const Setup& s) const {
+    const auto name = [&](const char* set, double row) -> std::string {
+      return s.host()->row_name(s.host(), set, static_cast<uint32_t>(row));
+    };
+    if (name("robot", robot) == name("radio", peers[0]))
+      throw BadInput("attribute \"peers\": \"" + name("radio", peers[0]) +
+                     "\" is the robot's own radio, to which it measures nothing; expected others");
+  }
 
   static double radio_named(const Setup& s, const std::string& name) {
     std::string known;

@@ -90,7 +90,7 @@ struct ControlTrack {
         command(s.write<Command>("robot/{robot}/command")),
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
-    if (radio == base) throw BadInput("base: it reports to itself; expected another radio");
+    expect_another_radio(s, "base", radio, "the robot's own radio");
   }
 
   void step(const Step& k) const {

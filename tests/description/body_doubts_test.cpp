@@ -88,5 +88,30 @@ TEST(BodyDoubts, ABodyThatTips) {
               Contains(HasSubstr("at rest the robot tips")));
 }
 
+TEST(BodyDoubts, WheelsAboutAnotherAxisAreToldWithTheirOwn) {
+  const auto told = [](const std::string& origin, const std::string& axis) {
+    Files files;
+    const std::string inertia =
+        "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+    const std::string path = files.write(
+        "bot.urdf", "<robot name='bot'>\n<link name='base'>" + inertia + "</link>\n<link name='wheel'>" + inertia +
+                        "</link>\n<joint name='j' type='continuous'><parent link='base'/><child link='wheel'/>" +
+                        origin + axis + "</joint></robot>");
+    std::string words = wheels_about_others(read_robot(path));
+    if (const auto at = words.find(path); at != words.npos) words.erase(at, path.size());
+    return words;
+  };
+  EXPECT_EQ(
+      told("", "<axis xyz='0 0 1'/>"),
+      "joint 'j' of link 'wheel' (:3) turns about the robot's z axis, and a wheel about y: expected <axis xyz=\"0 1 "
+      "0\"/>");
+  EXPECT_EQ(
+      told("<origin rpy='-1.5707963267948966 0 0'/>", "<axis xyz='1 0 0'/>"),
+      "joint 'j' of link 'wheel' (:3) turns about the robot's x axis, and a wheel about y: expected <axis xyz=\"0 0 "
+      "1\"/>");
+  EXPECT_EQ(told("<origin rpy='-1.5707963267948966 0 0'/>", "<axis xyz='0 0 1'/>"), "");
+  EXPECT_EQ(told("", "<axis xyz='0 -1 0'/>"), "");
+}
+
 }  // namespace
 }  // namespace muster::description

@@ -167,6 +167,30 @@ TEST(Mjcf, WhatIsNotTakenIsListed) {
                   "drive has its own), stiffness of <joint>"));
 }
 
+TEST(Mjcf, ARangeWithinATurnOfRadiansIsAskedAbout) {
+  const auto warnings = [](const std::string& compiler, const std::string& range) {
+    const Files files;
+    const std::string path =
+        files.write("arm.xml", "<mujoco>" + compiler +
+                                   "<worldbody><body name='b'><freejoint/><geom size='1'/>\n<body name='c'>"
+                                   "<joint name='j' range='" +
+                                   range +
+                                   "' limited='true'/><geom size='1'/></body></body></worldbody>"
+                                   "</mujoco>");
+    std::string result;
+    for (const std::string& warning : read_robot(path).warnings)
+      if (warning.find("joint 'j'") != warning.npos) result += warning.substr(path.size());
+    return result;
+  };
+  EXPECT_EQ(warnings("", "-1.57 1.57"),
+            ":2: joint 'j': its range of -1.57 to 1.57 is in degrees, MuJoCo's default; are these radians? expected "
+            "range=\"-89.95 89.95\", or <compiler angle=\"radian\"/> of all angles");
+  EXPECT_EQ(warnings("", "-90 90"), "");
+  EXPECT_EQ(warnings("", "-5 5"), "");
+  EXPECT_EQ(warnings("<compiler angle='degree'/>", "-1.57 1.57"), "");
+  EXPECT_EQ(warnings("<compiler angle='radian'/>", "-1.57 1.57"), "");
+}
+
 TEST(MjcfFault, IsNamedWithItsLine) {
   const auto fault = [](const std::string& text) {
     const Files files;

@@ -96,7 +96,8 @@ const Case cases[] = {
     {"laser_beyond_a_turn", laser("samples='3' min_angle='-4' max_angle='4'"),
      "8: sensor 's': <horizontal> sweeps more than a whole turn"},
     {"laser_in_degrees", laser("samples='3' min_angle='-120' max_angle='120'"),
-     "8: sensor 's': <horizontal> goes beyond a whole turn"},
+     "8: sensor 's': <horizontal> goes beyond a whole turn, from -120 to 120 rad; are these degrees? expected "
+     "min_angle=\"-2.094\" max_angle=\"2.094\""},
     {"laser_between_samples", laser("samples='3' min_angle='-1' max_angle='1' resolution='2'"),
      "8: sensor 's': <horizontal> resolution is not 1: a range for each ray"},
     {"laser_of_many_planes", laser("/><vertical samples='16'"),
@@ -163,7 +164,11 @@ const Case cases[] = {
     {"two_parents",
      link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "a", "b") + joint("j2", "a", "c") +
          joint("j3", "b", "c"),
-     "7: link 'c' has two parents: 'a' (line 6) and 'b'"},
+     "7: link 'c' is the <child> of two joints, 'j2' (line 6) and 'j3'; expected one"},
+    {"a_child_that_is_copied",
+     link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "a", "b") + joint("j2", "a", "b"),
+     "6: link 'b' is the <child> of two joints, 'j1' (line 5) and 'j2'; expected one: link 'c' is in no joint; is it "
+     "meant here?"},
     {"two_roots", link("a", mass) + link("b", mass),
      "3: link 'b' is a second root beside 'a'; expected one tree: a <joint> with <child link=\"b\"/>"},
     {"a_link_on_no_joint", link("a_lidar", mass) + link("base", mass) + link("c", mass) + joint("j", "base", "c"),

@@ -274,6 +274,9 @@ TEST(UrdfOfRos, GazeboFaultsHaveTheirLine) {
     return message_of([&] { read_robot(path); }).substr(path.size() + 1);
   };
   EXPECT_EQ(message("<max>3.5", "<max>3.5m"), "6: sensor 'lds': <max> \"3.5m\" is wrong; expected a number");
+  EXPECT_EQ(message("6.28319", "270"),
+            "4: sensor 'lds': sweeps more than a whole turn, from 0 to 270 rad; are these degrees? expected "
+            "<min_angle>0</min_angle> and <max_angle>4.712</max_angle>");
   EXPECT_EQ(message("6.28319", "7"), "4: sensor 'lds': sweeps more than a whole turn, from 0 to 7 rad");
   EXPECT_EQ(message("<update_rate>5</update_rate>", ""), "3: sensor 'lds': <sensor> has no <update_rate>");
   EXPECT_EQ(message("reference='base'", "reference='bas'"),

@@ -86,6 +86,15 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
   EXPECT_EQ(error("<set path='mover/ad' value='3'/>"),
             "world.xml:5:22: there is no parameter \"mover/ad\"; expected one of mover/as, mover/flags, "
             "mover/read_flags, mover/own, mover/add, mover/times; did you mean \"mover/as\"?");
+  EXPECT_EQ(
+      error_of([&] {
+        run("<material name='brick' loss='4'/>\n<wall name='w' from='0 0' to='4 0' material='brick'/>\n"
+            "<door name='d' wall='w' at='1'/>\n"
+            "<toy.copy_sense name='who_looks' from='door/*/state' columns='open' to='door/*/seen'/>\n" +
+            two_robots + adder + "<at t='1'><set path='door/d/open' value='true'/></at>\n");
+      }),
+      "world.xml:9:22: there is no parameter \"door/d/open\"; \"open\" is a value of \"door/d/state\"; expected that "
+      "path, and the value open");
   EXPECT_EQ(error("<set path='mover/add' value='much'/>"),
             "world.xml:5:40: attribute \"value\": \"much\" is not a number; expected a number from -1e+06 to 1e+06 m");
   EXPECT_EQ(error("<leave robot='c'/>"), "world.xml:5:25: no robot is called \"c\"; expected one of a, b");

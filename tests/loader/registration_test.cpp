@@ -128,10 +128,18 @@ TEST(Registration, ReadsALongerDescriptorOfALaterHeader) {
 
 TEST(Registration, RefusesBadNumbers) {
   const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
-  EXPECT_EQ(refusal_of_param([](auto& p) { p.value = 7; }), "has the default 7, which is not in 1 to 6");
-  EXPECT_EQ(refusal_of_param([&](auto& p) { p.value = nan; }), "has the default nan, which is not in 1 to 6");
-  EXPECT_EQ(refusal_of_param([](auto& p) { p.min = 9; }), "has bounds 9 to 6");
-  EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = nan; }), "has bounds 1 to nan");
+  const std::string order = "; expected the order real(name, default, least, most, unit, help)";
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.value = 7; }), "has the default 7, which is not in 1 to 6" + order);
+  EXPECT_EQ(refusal_of_param([&](auto& p) { p.value = nan; }), "has the default nan, which is not in 1 to 6" + order);
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.min = 9; }),
+            "has the default 2 and bounds from 9 to 6; expected the least first, in the order real(name, default, "
+            "least, most, unit, help)");
+  EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = MUSTER_INTEGER, p.max = 0; }),
+            "has the default 2 and bounds from 1 to 0; expected the least first, in the order integer(name, default, "
+            "least, most, help)");
+  EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = nan; }),
+            "has the default 2 and bounds from 1 to nan; expected the least first, in the order real(name, default, "
+            "least, most, unit, help)");
   EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = inf; }),
             "is free for a fit, which needs finite bounds; it has 1 to inf");
   EXPECT_EQ(refusal_of_param([&](auto& p) { p.max = inf, p.flags = 0; }), "");
@@ -139,6 +147,27 @@ TEST(Registration, RefusesBadNumbers) {
   EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = MUSTER_INTEGER, p.value = 2.5; }),
             "is an integer with default 2.5");
   EXPECT_EQ(refusal_of_param([](auto& p) { p.kind = MUSTER_FLAG; }), "is a flag with default 2");
+}
+
+TEST(Registration, RefusesACauseWhoseSentenceOrRowIsOfNoParameter) {
+  const auto refused = [](const char* title, const char* ranges_over = "") {
+    static muster_cause cause;
+    cause = {sizeof(muster_cause), MUSTER_TERM, title, ranges_over, "", "", "", nullptr, 0};
+    return refusal_of([](muster_plugin& plugin) { plugin.cause = &cause; });
+  };
+  const std::string begin = "registers \"radio.sample/3\" whose cause ";
+  EXPECT_EQ(refused("the exponent is {n}, and {n|too high|too low}"), "");
+  EXPECT_EQ(refused("the exponent is {m}"), begin +
+                                                "has the title \"the exponent is {m}\", in which {m} is no parameter; "
+                                                "expected n");
+  EXPECT_EQ(refused("the exponent is {n"), begin + "has the title \"the exponent is {n\", with a { that no } ends");
+  EXPECT_EQ(refused("{n|high}"), begin +
+                                     "has the title \"{n|high}\", in which {n|high} has 1 words for the sign; expected "
+                                     "{n|if positive|if negative}");
+  EXPECT_EQ(refused("of {n}", "a b"),
+            begin + "names \"a\" as its ranges_over, which is not a reference of the plugin; it has none");
+  EXPECT_EQ(refused("of {n}", "radio"),
+            begin + "names \"radio\" as its ranges_over, which is not a reference of the plugin; it has none");
 }
 
 TEST(Registration, RefusesBadDeclarations) {

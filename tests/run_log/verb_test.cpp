@@ -76,7 +76,17 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
           "--from 3 is after --to 1; expected --from 1 --to 3");
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "1min"},
           "--from: \"1min\" is not a number; \"min\" follows the number; expected seconds: --from 60");
-  refused({"log", "info", "a.txt", "--from", "1"}, "--from and --to are of cut, not of info");
+  refused({"log", "csv", "a.txt", "--from", "1", "--to", "2"},
+          "--from and --to are of cut, not of csv; expected first muster log cut a.txt --from 1 --to 2 -o part.mcap, "
+          "then muster log csv part.mcap");
+  refused({"log", "info", "a.txt", "-o", "b"},
+          "--out is of recover, cut and csv; info writes no file; expected no --out, or info > b");
+  std::filesystem::create_directories(folder.path() / "bag");
+  refused({"log", "info", "bag"}, "bag: is a folder; expected an MCAP file, and it has none");
+  folder.write("bag/bag_0.mcap", "x");
+  refused({"log", "info", "bag"}, "bag: is a folder; expected the MCAP file in it, bag/bag_0.mcap");
+  folder.write("bag/bag_1.mcap", "x");
+  refused({"log", "info", "bag"}, "bag: is a folder; expected one of its MCAP files, such as bag/bag_0.mcap");
   refused({"log", "recover", "a.txt", "--column", "x"}, "--column is of csv, not of recover");
   refused({"run", world, "--plot", "robot/*/pose/x"}, "--plot needs --out, the folder to draw into");
   refused({"run", world, "--plot", "pose", "--out", "o"},

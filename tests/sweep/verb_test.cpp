@@ -42,6 +42,21 @@ TEST(Sweep, RunsWhatASingleRunOfTheSameWordsRuns) {
   EXPECT_LT(mean[0], x[0]);
 }
 
+TEST(Sweep, OneSeedThatMayBeMeantAsANumberOfSeedsIsNoted) {
+  const SweepFolder folder;
+  const auto swept = [&](const std::string& seeds) {
+    folder.write("plan.xml", "<sweep world=\"world.xml\" seeds=\"" + seeds + "\"/>");
+    return folder.sweep({"plan.xml", "--out", "out" + seeds});
+  };
+  const auto one = swept("20");
+  EXPECT_EQ(one.err,
+            "muster: note: plan.xml:1:33: seeds=\"20\" is one seed, the number 20, so that there are no intervals; "
+            "expected seeds=\"1..20\" for 20 seeds\n");
+  EXPECT_THAT(one.out, HasSubstr("plan: 1 combinations of 1 seed, 1 runs, 0 of them done before"));
+  EXPECT_EQ(swept("1").err, "");
+  EXPECT_EQ(swept("3 20").err, "");
+}
+
 TEST(Sweep, SweepsWorlds) {
   const SweepFolder folder;
   folder.write("other.xml", folder.read("world.xml").replace(folder.read("world.xml").find("30 3 0"), 6, "40 3 0"));

@@ -36,7 +36,12 @@ TEST(Doubts, WhatIsPlainlyAnotherSizeIsAskedAbout) {
   EXPECT_EQ(unit_doubt("height", "m", 270), "270 m; is this centimetres? 270 cm are 2.7 m");
   EXPECT_EQ(unit_doubt("height", "m", 30), "");
   EXPECT_EQ(unit_doubt("bandwidth", "Hz", 20), "20 Hz; is this MHz? 20 MHz are 20e6 Hz");
+  EXPECT_EQ(unit_doubt("bandwidth", "Hz", 0.02), "0.02 Hz; is this GHz? 0.02 GHz are 0.02e9 Hz");
   EXPECT_EQ(unit_doubt("bandwidth", "Hz", 2e6), "");
+  EXPECT_EQ(unit_doubt("frequency", "Hz", 2.44), "2.44 Hz; is this GHz? 2.44 GHz are 2.44e9 Hz");
+  EXPECT_EQ(unit_doubt("frequency", "Hz", 2440), "2440 Hz; is this MHz? 2440 MHz are 2440e6 Hz");
+  EXPECT_EQ(unit_doubt("frequency", "Hz", 433920), "433920 Hz; is this kHz? 433920 kHz are 433920e3 Hz");
+  EXPECT_EQ(unit_doubt("frequency", "Hz", 8.68e8), "");
   EXPECT_EQ(unit_doubt("duty", "", 0), "0: it is never on");
   EXPECT_EQ(unit_doubt("duty", "", 0.1), "");
   EXPECT_EQ(unit_doubt("least", "dBm", -20),

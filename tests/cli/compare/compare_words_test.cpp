@@ -52,6 +52,12 @@ TEST(CompareWords, AreRefusedWithTheNearestName) {
       {{"physics=physics.planar:aceleration=1"},
        "muster compare: <physics.planar> has no attribute \"aceleration\"; expected one of name, every, library, "
        "revision, acceleration, through_walls; did you mean \"acceleration\"?"},
+      {{"physics.planar"},
+       "muster compare: \"physics.planar\" is no world; expected INSTANCE=PLUGIN, such as physics=physics.planar"},
+      {{"steer"}, "muster compare: \"steer\" is no world; expected steer=PLUGIN, the plugin that takes its place"},
+      {{"physics=physics.planar", "acceleration=1"},
+       "muster compare: no instance is called \"acceleration\"; did you mean physics=physics.planar:acceleration=1? "
+       "attributes follow their plugin behind a colon"},
       {{"coarse.xml"}, "coarse.xml: ticks of 0.1 s against 0.05 s; expected one dt"},
       {{"absent.xml"}, "absent.xml: no such file"}};
   for (const auto& [words, message] : cases) {

@@ -36,6 +36,54 @@ TEST_F(Words, BoundsAreToldAsThoseOfAttributes) {
                "muster map: --area: expected 4 words, not 3; see muster map --help");
 }
 
+TEST_F(Words, NumbersOfOneOptionArePartedByBlanks) {
+  const std::vector<std::string> roadmap = {"roadmap", "world.xml", "--out", "r.csv", "--radius", "0.2", "--to", "3,2"};
+  expect_error(folder.muster(roadmap), 2,
+               "muster roadmap: --to: expected 2 words, not 1; did you mean --to 3 2?; see muster roadmap --help");
+  expect_error(folder.muster({"map", "world.xml", "--out", "m", "--area", "0;0;12;8"}), 2,
+               "muster map: --area: expected 4 words, not 1; did you mean --area 0 0 12 8?; see muster map --help");
+}
+
+TEST_F(Words, WhatAnotherOptionMakesVoidIsRefused) {
+  const auto roadmap = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"roadmap", "world.xml", "--out", "r.csv"});
+    return folder.muster(words);
+  };
+  expect_error(roadmap({"--step", "0.1"}), 2,
+               "muster roadmap: --step has no effect without --method grid; expected --method grid beside it, or no "
+               "--step; see muster roadmap --help");
+  expect_error(roadmap({"--robot", "rover", "--height", "1"}), 2,
+               "muster roadmap: --height has no effect without --radius; expected --radius beside it, or no --height; "
+               "see muster roadmap --help");
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--until", "1"}, {"--digest-every", "2"}, {"--watch"}, {"--real-time"}}) {
+    std::vector<std::string> words = option;
+    words.push_back("--expected");
+    refused(words, "muster run: " + option[0] +
+                       " has no effect beside --expected, which runs no tick; expected one of the "
+                       "two" +
+                       see);
+  }
+  expect_error(
+      folder.muster({"swap", "world.xml", "--plugins", MUSTER_TOYS, "--at", "0.1", "--instance", "good", "--plugin",
+                     "test.good", "--expected"}),
+      2,
+      "muster swap: --expected runs no tick, so that nothing is exchanged; expected muster run WORLD --expected, "
+      "or no --expected");
+}
+
+TEST_F(Words, SeveralSeedsAreThoseOfASweep) {
+  const std::string begin = " is no seed; expected an integer from 0", sweep =
+                                                                           ", and one: of several seeds, muster sweep, "
+                                                                           "with seeds=\"";
+  refused({"--seed", "1..20"}, "--seed: \"1..20\"" + begin + sweep + "1..20\" in its file");
+  refused({"--seed", "1-20"}, "--seed: \"1-20\"" + begin + sweep + "1..20\" in its file");
+  refused({"--seed", "1,2,3"}, "--seed: \"1,2,3\"" + begin + sweep + "1 2 3\" in its file");
+  refused({"--seed", "1.5"}, "--seed: \"1.5\"" + begin);
+  refused({"--seed", "-3"}, "--seed: \"-3\"" + begin);
+  refused({"--seed", "one"}, "--seed: \"one\"" + begin);
+}
+
 TEST_F(Words, OptionsOfAViewNeedIt) {
   for (const std::string option : {"--port", "--token", "--address"})
     refused({option, "80"}, "--port, --address and --token need --view beside them");

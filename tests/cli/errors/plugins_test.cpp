@@ -100,6 +100,16 @@ TEST(Fault16, AParameterThatIsNotDeclaredIsToldWithThoseThatAre) {
                "declared in params; did you mean \"size\"? declared are size");
 }
 
+TEST(Fault16, ATextIsThatOfATextParameter) {
+  const ProgramFolder folder;
+  expect_error(run_toy(folder, "<test.text_of_number/>"), 3,
+               "world.xml:1:36: test.text_of_number (test.text_of_number): create failed: asks for the text of the "
+               "parameter \"size\", which is a number and has none; expected s.param(\"size\")");
+  expect_error(run_toy(folder, "<test.text_of_none/>"), 3,
+               "world.xml:1:36: test.text_of_none (test.text_of_none): create failed: parameter \"sise\" is used but "
+               "not declared in params; did you mean \"size\"? declared are size");
+}
+
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
   const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.refuses/>"), 2,
@@ -149,6 +159,31 @@ TEST(Fault19, ColumnsAreSeparatedByBlanks) {
       run_toy(folder, "<test.commas/>"), 2,
       "world.xml:1:36: test.commas (test.commas): claims \"self/goal\": columns \"x[m],y[m], z[m]\" are parted "
       "by other signs than blanks; expected \"x[m] y[m] z[m]\"");
+}
+
+TEST(Fault19, NamesOfTablesAndUnitsAreToldAsTheyAreWritten) {
+  const ProgramFolder folder;
+  expect_error(run_toy(folder, "<test.own_table/>"), 2,
+               "world.xml:1:36: test.own_table (test.own_table): claims \"state\"; expected set/row/quantity, or "
+               "\"self/state\" for a table of its own");
+  expect_error(run_toy(folder, "<test.round_unit/>"), 2,
+               "world.xml:1:36: test.round_unit (test.round_unit): claims \"self/goal\": column \"sum(m)\" has no name "
+               "of letters, digits and _; expected name, or name[unit]: sum[m]");
+}
+
+TEST(Fault19, APhaseOfAnotherKindIsToldWithTheOneThatIsMeant) {
+  const ProgramFolder folder;
+  expect_error(run_toy(folder, "<radio.copied/>"), 2,
+               "world.xml:1:36: radio.copied (radio.copied): claims \"link/*/ends\", which is truth; its source states "
+               "phase = MUSTER_CONTROL, in which a plugin has what its robot senses and no more; expected phase = "
+               "MUSTER_RADIO");
+}
+
+TEST(Fault19, ARowThatIsNotThereIsRefusedBeforeItIsWritten) {
+  const ProgramFolder folder;
+  expect_error(run_toy(folder, "<test.beyond/>"), 3,
+               "world.xml:1:36: test.beyond (test.beyond): step failed at tick 5 (t = 0.5 s): uses row 1 of "
+               "instance/test.beyond/*/cell, which has 1 row here; expected row 0, or *k[table]");
 }
 
 TEST(Fault16, ThrowsWhenItIsDestroyed) {

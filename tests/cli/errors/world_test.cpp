@@ -39,6 +39,16 @@ TEST(Fault5, HabitsOfSdfAndRos) {
   folder.expect_refused(world_of(R"(<robot name="r"><pose>3 2 0 0 0 1.5</pose></robot>)"),
                         "world.xml:1:58: the text \"3 2 0 0 0 1.5\" stands between elements; expected attributes: "
                         "<robot at=\"3 2 0\" heading=\"1.5\"/>");
+  folder.expect_refused(world_of(R"(<station name="base">2 1 1.5</station>)"),
+                        "world.xml:1:57: the text \"2 1 1.5\" stands between elements; expected it as an attribute: "
+                        "<station at=\"2 1 1.5\"/>");
+  folder.expect_refused(world_of(R"(<wall material="m">0 0 5 0</wall>)"),
+                        "world.xml:1:55: the text \"0 0 5 0\" stands between elements; expected it as an attribute: "
+                        "<wall from=\"0 0\" to=\"5 0\"/>");
+  folder.expect_refused(
+      world_of(R"(<station name="base">2 1</station>)"),
+      "world.xml:1:57: the text \"2 1\" stands between elements; expected elements and comments only, "
+      "and values as attributes: <station NAME=\"VALUE\"/>");
   folder.expect_refused(world_of(R"(<physics type="ode"><max_step_size>0.001</max_step_size></physics>)"),
                         "world.xml:1:36: <physics> is no element of a world; the physics is a plugin, such as "
                         "<physics.simbody/>");

@@ -112,6 +112,93 @@ TEST(FirstHour, ABeaconWithoutANetwork) {
             "reads; expected <network.ideal/> in the world\n");
 }
 
+TEST(FirstHour, AChannelToWhichNothingAddsAPathLoss) {
+  const std::string beacon = base + rover + "<network.ideal/><control.beacon radio=\"base\"/>\n";
+  const std::string doubt = "nothing adds a path loss to link/*/level: there is only ",
+                    remedy = ", so that a level does not fall with distance; expected <radio.multiwall/> beside ";
+  const auto has = [&](const std::string& terms) {
+    const ProgramFolder folder;
+    folder.write("world.xml", world_of("\n" + beacon + terms + "\n"));
+    return folder.muster({"check", "world.xml"}).out + folder.muster({"run", "world.xml"}).err;
+  };
+  EXPECT_THAT(has("<radio.fading shadowing=\"3\" decorrelation=\"2\"/>"),
+              testing::HasSubstr("warning: world.xml:5:1: " + doubt + "radio.fading (radio.fading)" + remedy + "it\n"));
+  EXPECT_THAT(
+      has("<effect.rx_offset radio=\"base\" offset=\"3\"/>\n<radio.fading shadowing=\"3\" decorrelation=\"2\"/>"),
+      testing::HasSubstr("warning: world.xml:5:1: " + doubt +
+                         "effect.rx_offset (effect.rx_offset), radio.fading (radio.fading)" + remedy + "them\n"));
+  EXPECT_THAT(has("<radio.fading shadowing=\"3\" decorrelation=\"2\"/><radio.multiwall/>"),
+              testing::Not(testing::HasSubstr(doubt)));
+  EXPECT_THAT(has("<radio.images/>"), testing::Not(testing::HasSubstr(doubt)));
+}
+
+TEST(FirstHour, AControllerThatGoesSidewaysOfARobotThatCannot) {
+  const ProgramFolder folder;
+  folder.write("way.csv", "x[m],y[m]\n0,5\n");
+  const auto checked = [&](const std::string& model) {
+    folder.write("world.xml",
+                 world_of("<robot name=\"rover\" model=\"" + model + "\" at=\"0 0 0\"/><physics.simbody/>\n" +
+                          "<control.strafe robot=\"rover\" path=\"way.csv\"/>"));
+    return folder.muster({"check", "world.xml"});
+  };
+  expect_error(checked("scarab"), 2,
+               "world.xml:2:1: control.strafe (control.strafe): the model \"scarab\" of robot \"rover\" "
+               "(world.xml:1:36) has no wheels with rollers (<mecanum>), so that it cannot go sideways; expected "
+               "<control.waypoint/>, which turns, or a model that has them: youbot");
+  EXPECT_EQ(checked("youbot").exit, 0);
+}
+
+TEST(FirstHour, ARobotThatKeepsALinkToItself) {
+  const ProgramFolder folder;
+  folder.write("way.csv", "x[m],y[m]\n0,5\n");
+  const auto refused = [&](const std::string& links, const std::string& words) {
+    folder.write("world.xml", world_of(base + rover + channel +
+                                       "<network.ideal/><physics.simbody/>\n"
+                                       "<control.connectivity robot=\"rover\" roadmap=\"way.csv\" " +
+                                       links + "/>"));
+    expect_error(folder.muster({"check", "world.xml"}), 2, "world.xml:5:" + words);
+  };
+  refused("role=\"leader\" parent=\"rover\"",
+          "77: attribute \"parent\": \"rover\" is the robot's own radio; expected another: base");
+  refused("parent=\"base\" child=\"rover\"",
+          "76: attribute \"child\": \"rover\" is the robot's own radio; expected another: base");
+  refused("parent=\"base\" child=\"base\"",
+          "76: attribute \"child\": \"base\" is the parent already; expected another: rover");
+}
+
+TEST(FirstHour, WhatComesAfterTheEnd) {
+  EXPECT_EQ(
+      warnings_of(rover + "<physics.simbody/>\n<at t=\"45\"><leave robot=\"rover\"/></at>"),
+      "warning: world.xml:4:1: <at> comes at 45 s, and the run ends at 1 s, so that it never does; expected a time "
+      "below 1 s, or a longer run (until)\n");
+}
+
+TEST(FirstHour, AMeshInMillimetresIsAskedAbout) {
+  const ProgramFolder folder;
+  const std::string faces = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const auto warned = [&](int units, const std::string& more = "") {
+    std::string vertices;
+    for (int i = 0; i < 8; ++i) {
+      const bool far_x = i % 4 == 1 || i % 4 == 2, far_y = i % 4 >= 2;
+      vertices += "v " + std::to_string(far_x ? units : 0) + ' ' + std::to_string(far_y ? units : 0) + ' ' +
+                  std::to_string(i >= 4 ? units : 0) + '\n';
+    }
+    folder.write("press.obj", vertices + faces);
+    folder.write(
+        "world.xml",
+        world_of("<material name=\"steel\" loss=\"12\"/>\n<mesh name=\"press\" file=\"press.obj\" "
+                 "material=\"steel\" at=\"5 2 0\"" +
+                 more + "/>\n" + base + rover + channel + "<network.ideal/><physics.simbody/><radio.meshes/>"));
+    return folder.muster({"check", "world.xml"}).out;
+  };
+  EXPECT_THAT(warned(900),
+              testing::HasSubstr("warning: world.xml:2:1: mesh \"press\" is 900.000 m long, and all radios "
+                                 "are within 5.000 m; is its file in millimetres? expected "
+                                 "scale=\"0.001\"\n"));
+  EXPECT_THAT(warned(90), testing::Not(testing::HasSubstr("millimetres")));
+  EXPECT_THAT(warned(900, " scale=\"0.5\""), testing::Not(testing::HasSubstr("millimetres")));
+}
+
 TEST(FirstHour, AJammerOutsideOfTheNetworksBand) {
   const std::string jammer =
       "<station name=\"noise\" at=\"0 5 1\"/><radio.jammer radio=\"noise\" bandwidth=\"20e6\" frequency=";

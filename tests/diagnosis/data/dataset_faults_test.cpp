@@ -58,7 +58,8 @@ TEST(DatasetFaults, AMarkOfManyRowsAndOtherScales) {
   };
   ends_with("0,a,b,0,0,1,0,218\n1,a,b,0,0,2,0,190\n",
             "; whole numbers from 128 to 255 are an unsigned byte: rssi[dBm] = 1*COLUMN - 256");
-  ends_with("0,a,b,0,0,1,0,81\n1,a,b,0,0,2,0,64\n", "; a quality in per cent is no level");
+  ends_with("0,a,b,0,0,1,0,81\n1,a,b,0,0,2,0,64\n",
+            "; a quality in per cent is no level: where it is Windows', rssi[dBm] = 0.5*COLUMN - 100 is about it");
 }
 
 TEST(DatasetFaults, DistancesThatTellNothing) {

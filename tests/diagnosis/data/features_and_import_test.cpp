@@ -179,6 +179,9 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "differs");
   EXPECT_EQ(failing(with("tx = \"robot\"", "tx = phone")),
             "m.map:6: \"tx\" is a column of names; expected tx = name phone");
+  EXPECT_EQ(failing(with("tx = \"robot\"", "tx = \"phone\"")),
+            "m.map:6: \"phone\" in quotes is the same name in all rows, and " + std::filesystem::path(file).string() +
+                " has a column phone, with names such as \"p\"; expected tx = name phone, or another name");
   EXPECT_EQ(failing(with("tx = \"robot\"\n", "")), "m.map: no rule makes the column \"tx\"; expected tx = name COLUMN");
   EXPECT_EQ(failing(with("rssi[dBm] =", "rsi[dBm] =")),
             "m.map: no rule makes the column \"rssi[dBm]\"; expected rssi[dBm] = COLUMN; is it \"rsi\"?");

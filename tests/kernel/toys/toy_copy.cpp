@@ -49,14 +49,15 @@ struct Copy {
 
   void step(const Step& k) const {
     if (to < 0) return;
-    const auto out = k[Out<Cell>{to}];
-    const auto last = k[In<Cell>{to}];
-    const auto a = from < 0 ? last : k[In<Cell>{from}];
-    const auto b = other < 0 ? last : k[In<Cell>{other}];
-    for (std::size_t i = 0; i < out.size() * width; ++i) {
+    const auto rows = k[Out<Cell>{to}];  // of `width` cells each, whatever the table is
+    const auto cells = [&](int claim) { return k[In<Cell>{claim < 0 ? to : claim}]; };
+    Cell* const out = rows.begin();
+    const Cell *last = cells(to).begin(), *a = cells(from).begin(), *b = cells(other).begin();
+    const std::size_t of_a = cells(from).size() * width, of_b = cells(other).size() * width;
+    for (std::size_t i = 0; i < rows.size() * width; ++i) {
       double value = kind == MUSTER_MODIFY || k[own] != 0 ? last[i].value : 0;
-      if (from >= 0 && i < a.size() * width) value += a[i].value;
-      if (other >= 0 && i < b.size() * width) value += b[i].value;
+      if (from >= 0 && i < of_a) value += a[i].value;
+      if (other >= 0 && i < of_b) value += b[i].value;
       out[i].value = value * k[times] + k[plus];
     }
   }

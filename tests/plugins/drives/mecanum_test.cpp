@@ -48,6 +48,27 @@ TEST(Mecanum, RatesLeaveNoSlipAlongTheRollers) {
   }
 }
 
+TEST(Mecanum, OfARobotWithoutRollersThatIsToGoSidewaysOneWarningIsGiven) {
+  const Folder folder;
+  const auto warnings = [&](const std::string& model, const std::string& twist) {
+    Simulation run =
+        driven(folder, model, "physics.planar", "<test.twist robot=\"r\" " + twist + "/><robots.odometry/>", "");
+    for (int tick = 0; tick < 5; ++tick) run.step();
+    std::string result;
+    for (const Event& event : run.events())
+      if (const auto at = event.message.find("robot 'r' "); at != event.message.npos)
+        result += event.message.substr(at);
+    return result;
+  };
+  EXPECT_EQ(
+      warnings("scarab", "v=\"0.1\" side=\"0.1\""),
+      "robot 'r' is commanded to go sideways (robot/r/sideways), and its model 'scarab' has no wheels with rollers "
+      "(<mecanum>), so that it does not; expected a controller that turns, such as control.waypoint in place of "
+      "control.strafe, or a model with rollers, such as youbot");
+  EXPECT_EQ(warnings("scarab", "v=\"0.1\""), "");
+  EXPECT_EQ(warnings("youbot", "v=\"0.1\" side=\"0.1\""), "");
+}
+
 class MecanumDrives : public testing::TestWithParam<const char*> {
  protected:
   bool is_planar() const { return std::string(GetParam()) == "physics.planar"; }

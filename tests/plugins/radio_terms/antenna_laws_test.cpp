@@ -146,7 +146,7 @@ TEST(GainTable, RefusesWhatIsNoAntenna) {
   EXPECT_EQ(
       refusal({{0, 90, 0}}),
       "attribute \"file\": row 1 is azimuth 0.000, elevation 90.000; expected radians, an azimuth within -pi and pi "
-      "and an elevation within -pi/2 and pi/2");
+      "and an elevation within -pi/2 and pi/2; are these degrees? a degree is 0.017453293 rad");
   EXPECT_EQ(refusal({{0, 0, 2.15}, {1, 0, 2.15}}),
             "attribute \"file\": it ends at the elevations 0.000 and 0.000; expected gains from -pi/2 to pi/2");
   EXPECT_EQ(

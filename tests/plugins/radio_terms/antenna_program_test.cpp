@@ -59,6 +59,18 @@ TEST(AntennaProgram, MapShowsItsFrontAndItsBack) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(rssi[10 - i] - rssi[i], 20, 1e-9) << i;
 }
 
+TEST(AntennaProgram, ARowOfItsTableIsToldWithItsLine) {
+  const ProgramFolder folder;
+  folder.write("gain.csv", "azimuth[rad],elevation[rad],gain[dBi]\n0,0,0\n-180,-90,0\n");
+  folder.write("world.xml", world_of("<station name='base' at='0 0 1'/><station name='far' at='9 0 1'/>"
+                                     "<radio.multiwall/><radio.receiver/>"
+                                     "<radio.antenna radio='base' pattern='table' file='gain.csv'/>"));
+  expect_error(
+      folder.muster({"run", "world.xml"}), 2,
+      "gain.csv:3: row 2 is azimuth -180.000, elevation -90.000; expected radians, an azimuth within -pi and pi "
+      "and an elevation within -pi/2 and pi/2; are these degrees? a degree is 0.017453293 rad");
+}
+
 // Readings around a lobe with another orientation than the world's.
 TEST(AntennaProgram, FitFindsWhereTheLobeIs) {
   const ProgramFolder folder;

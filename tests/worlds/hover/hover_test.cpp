@@ -160,7 +160,7 @@ TEST(Hovering, APlaneIsRefusedWithTheListOfWhatItLacks) {
     EXPECT_EQ(error.exit(), Exit::invalid_input);
     EXPECT_THAT(error.what(), testing::EndsWith("it lacks what the world's robots need: robot 'still' (model "
                                                 "'hummingbird') needs rotors (<quadrotor>), changes of height, roll "
-                                                "and pitch"));
+                                                "and pitch; expected physics.simbody, which has that"));
   }
   EXPECT_EQ(run.digest(), before);
   run.run_to(1.1);  // the old backend goes on

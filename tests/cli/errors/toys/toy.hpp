@@ -5,6 +5,9 @@
 #include <limits>
 #include <muster/plugin.hpp>
 
+#ifndef TOY_PHASE
+#define TOY_PHASE MUSTER_OBSERVE
+#endif
 #ifndef TOY_CREATE
 #define TOY_CREATE
 #endif
@@ -27,6 +30,11 @@ struct Commas {
   double x, y, z;
 };
 
+struct Round {
+  static constexpr const char* columns = "sum(m)";
+  double sum;
+};
+
 struct Cell {
   static constexpr const char* columns = "value[m]";
   double value;
@@ -34,7 +42,7 @@ struct Cell {
 
 struct Toy {
   static constexpr auto id = TOY_ID, summary = "goes wrong in one way";
-  static constexpr auto phase = MUSTER_OBSERVE;
+  static constexpr auto phase = TOY_PHASE;
   static constexpr muster::Param params[] = {muster::real("size", 1, 0, 10, "m", "how tall it is").free()};
   explicit Toy(muster::Setup& setup) : cell(setup.write<Cell>("self/cell")) { TOY_CREATE; }
   ~Toy() noexcept(false) { TOY_DESTROY; }

@@ -1,7 +1,8 @@
-#include "double_terms.hpp"
+#include "level_terms.hpp"
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace muster::cli {
 namespace {
@@ -47,9 +48,24 @@ std::string title(const Instance& instance) {
   return instance.name() + " (" + id.substr(0, id.find('/')) + ")";
 }
 
+// True for what is added to a path loss and is none: draws, causes of misfits, antennas and what stands in the way. A
+// plugin of somebody's own may be anything.
+bool is_beside(const Instance& instance) {
+  static const std::set<std::string> beside = {"radio.antenna", "radio.bodies", "radio.meshes"};
+  const std::string id = instance.plugin().id;
+  const muster_cause* cause = instance.plugin().cause;  // one that replaces a part may be a path loss itself
+  return instance.plugin().draw || (cause && !cause->replaces) || beside.count(id.substr(0, id.find('/')));
+}
+
+std::string titles(const std::vector<const Instance*>& terms) {
+  std::string result;
+  for (const Instance* term : terms) result += (result.empty() ? "" : ", ") + title(*term);
+  return result;
+}
+
 }  // namespace
 
-std::vector<std::string> double_terms(const Simulation& run) {
+std::vector<std::string> level_doubts(const Simulation& run) {
   std::vector<const Instance*> terms;
   for (const auto& instance : run.instances())
     if (adds_to_level(*instance)) terms.push_back(instance.get());
@@ -66,6 +82,11 @@ std::vector<std::string> double_terms(const Simulation& run) {
                          " both add " + what + " to link/*/level, which then counts twice; expected one of the two");
     }
   }
+  if (!terms.empty() && std::all_of(terms.begin(), terms.end(), [](const Instance* t) { return is_beside(*t); }))
+    result.push_back(terms[0]->place().text() + ": nothing adds a path loss to link/*/level: there is only " +
+                     titles(terms) +
+                     ", so that a level does not fall with distance; expected <radio.multiwall/> beside " +
+                     (terms.size() == 1 ? "it" : "them"));
   return result;
 }
 

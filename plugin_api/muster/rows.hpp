@@ -1,0 +1,95 @@
+// Views of a table's rows as structs of doubles, and the checks that keep a plugin inside of them.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace muster {
+namespace detail {
+
+// Number of columns of "x[m] range[m]*682 rssi[dBm]?", and of a file's ". " or " +" at its end.
+constexpr std::size_t column_count(const char* text) {
+  constexpr auto parts = [](char c) { return c == ' ' || c == ',' || c == ';' || c == '\t' || c == '\n'; };
+  std::size_t count = 0;
+  while (*text) {
+    while (*text && parts(*text)) ++text;
+    if (!*text) break;
+    const char first = *text;
+    std::size_t length = 0, alike = 0;
+    bool is_unit = false, is_number = false;  // "torque[N*m]" is one column
+    for (; *text && !parts(*text); ++text, ++length) {
+      if (*text == '[') is_unit = true;
+      if (*text == ']') is_unit = false;
+      is_number = !is_unit && (*text == '*' || (is_number && *text >= '0' && *text <= '9'));
+      if (is_number && *text != '*') alike = 10 * alike + static_cast<std::size_t>(*text - '0');
+    }
+    if (length > 1 || (first != '.' && first != '+')) count += alike > 0 ? alike : 1;
+  }
+  return count;
+}
+
+// False where a row type states its columns at compile time, and is not one double a column.
+template <class Row, std::size_t count = column_count(Row::columns)>
+constexpr bool is_one_double_a_column(int) {
+  return sizeof(Row) == count * sizeof(double);
+}
+template <class Row>
+constexpr bool is_one_double_a_column(...) {
+  return true;
+}
+
+// A row that a table does not have. The table is named where it is caught, by the claim's number.
+struct NoRow : std::out_of_range {
+  NoRow(std::size_t row, std::size_t rows, int claimed)
+      : std::out_of_range("row " + std::to_string(row) + " of " + std::to_string(rows)),
+        at(row),
+        size(rows),
+        claim(claimed) {}
+  std::size_t at, size;
+  int claim;
+};
+[[noreturn]] __attribute__((noinline, cold)) inline void no_row(std::size_t row, std::size_t rows, int claim) {
+  throw NoRow(row, rows, claim);
+}
+
+// "uses row 1 of robot/r1/command, which has 1 row here"; `table`: its name, or null.
+inline std::string in_words(const NoRow& e, const char* table) {
+  const char* remedy = e.size == 0   ? "expected a look at empty() first"
+                       : e.size == 1 ? "expected row 0, or *k[table]"
+                                     : "expected rows from 0 on and below k[table].size()";
+  return "uses row " + std::to_string(e.at) + " of " + (table ? table : "a table") + ", which has " +
+         std::to_string(e.size) + (e.size == 1 ? " row" : " rows") + " here; " + remedy;
+}
+
+}  // namespace detail
+
+// View of a table's rows. A row that is not there throws: of a write, it would be another's.
+template <class Row>
+class Rows {
+ public:
+  using Double = std::conditional_t<std::is_const_v<Row>, const double, double>;
+  static_assert(sizeof(Row) % sizeof(double) == 0 && std::is_trivially_copyable_v<Row>, "a row is doubles and no more");
+
+  // `claim`: its number among the plugin's claims, for messages; -1: none.
+  Rows(Double* data, std::size_t rows, int claim = -1)
+      : begin_(reinterpret_cast<Row*>(data)), size_(rows), claim_(claim) {}
+  Row* begin() const { return begin_; }
+  Row* end() const { return begin_ + size_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  Row& operator[](std::size_t i) const {
+    if (__builtin_expect(i >= size_, 0)) detail::no_row(i, size_, claim_);
+    return begin_[i];
+  }
+  Row* operator->() const { return &(*this)[0]; }  // the row of a claim on a single row
+  Row& operator*() const { return (*this)[0]; }
+
+ private:
+  Row* begin_;
+  std::size_t size_;
+  int claim_;
+};
+
+}  // namespace muster

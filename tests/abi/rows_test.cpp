@@ -1,0 +1,61 @@
+// Row types and views of rows: what the compiler checks of them, and what a step does.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <muster/plugin.hpp>
+#include <muster/senses.hpp>
+
+namespace muster {
+namespace {
+
+struct Floats {
+  static constexpr const char* columns = "v[m/s] w[rad/s]";
+  float v, w;
+};
+struct Few {
+  static constexpr const char* columns = "x y z";
+  double x, y;
+};
+struct Many {
+  static constexpr const char* columns = "id range[m]*3~";
+  double id, range[3];
+};
+struct Named {
+  static const char* columns;  // not known to the compiler
+  double x;
+};
+
+TEST(RowTypes, HaveOneDoubleForEachColumn) {
+  EXPECT_EQ(detail::column_count("v[m/s] w[rad/s]"), 2u);
+  EXPECT_EQ(detail::column_count("  torque[N*m]  range[m]*682~ payload{} tx:endpoint? "), 685u);
+  EXPECT_EQ(detail::column_count("azimuth[rad] gain[dBi] ."), 2u);
+  EXPECT_EQ(detail::column_count("tx:radio+ rssi[dBm]? +"), 2u);
+  EXPECT_EQ(detail::column_count(""), 0u);
+  static_assert(detail::is_one_double_a_column<Command>(0) && detail::is_one_double_a_column<Legs>(0));
+  static_assert(detail::is_one_double_a_column<Scan>(0) && detail::is_one_double_a_column<Image>(0));
+  static_assert(detail::is_one_double_a_column<Many>(0) && detail::is_one_double_a_column<Named>(0));
+  static_assert(!detail::is_one_double_a_column<Floats>(0) && !detail::is_one_double_a_column<Few>(0));
+}
+
+TEST(RowTypes, ARowThatIsNotThereIsNeitherReadNorWritten) {
+  std::array<double, 6> cells{1, 2, 3, 4, 5, 6};
+  const Rows<Command> rows(cells.data(), 2, 7);
+  rows[1].w = 40;
+  EXPECT_EQ(cells[3], 40);
+  try {
+    rows[2].v = 50;
+    FAIL() << "nothing was thrown";
+  } catch (const detail::NoRow& fault) {
+    EXPECT_EQ(fault.at, 2u);
+    EXPECT_EQ(fault.size, 2u);
+    EXPECT_EQ(fault.claim, 7);
+  }
+  EXPECT_EQ(cells[4], 5);
+  const Rows<const Command> none(nullptr, 0);
+  EXPECT_THROW(static_cast<void>(none->v), detail::NoRow);
+  EXPECT_THROW(static_cast<void>(*none), detail::NoRow);
+  for (const Command& row : none) FAIL() << row.v;
+}
+
+}  // namespace
+}  // namespace muster
