@@ -33,9 +33,17 @@ std::string substituted(const std::string& row, const Instance& instance, const 
   return set.names[static_cast<std::size_t>(value)];
 }
 
-}  // namespace
-
-namespace {
+// Of a plugin whose kind is the word of another phase than its own, such as "radio.mine" in CONTROL: "MUSTER_RADIO".
+std::string phase_of_kind(const Instance& instance) {
+  constexpr std::size_t enough = 4;  // letters in which "sensors" and SENSE are alike
+  std::string kind = instance.declared().plugin.substr(0, enough);
+  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::toupper(c); });
+  for (uint32_t phase = MUSTER_ACTUATE; phase <= MUSTER_OBSERVE; ++phase) {
+    const std::string name = phase_name(phase);
+    if (name.substr(0, enough) == kind) return "MUSTER_" + name;
+  }
+  return "";
+}
 
 // A table's name that has too few parts: one of the instance's own is meant where the name is one word, and no set.
 Error misnamed(const std::string& text, const Instance& instance, const Surroundings& around) {
@@ -129,22 +137,6 @@ const Quantity* standard_quantity(const Standard& standard, const TableName& nam
   }
   return nullptr;
 }
-
-namespace {
-
-// Of a plugin whose kind is the word of another phase than its own, such as "radio.mine" in CONTROL: "MUSTER_RADIO".
-std::string phase_of_kind(const Instance& instance) {
-  constexpr std::size_t enough = 4;  // letters in which "sensors" and SENSE are alike
-  std::string kind = instance.declared().plugin.substr(0, enough);
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::toupper(c); });
-  for (uint32_t phase = MUSTER_ACTUATE; phase <= MUSTER_OBSERVE; ++phase) {
-    const std::string name = phase_name(phase);
-    if (name.substr(0, enough) == kind) return "MUSTER_" + name;
-  }
-  return "";
-}
-
-}  // namespace
 
 // Private tables are the instance's own memory. Quantities that are not standard are checked when the world is linked,
 // since the writer's claim decides.
