@@ -17,9 +17,6 @@ int users = 0;
 std::shared_mutex compiling;  // held alone by who compiles, shared by who steps
 thread_local Warnings* counted = nullptr;
 
-using Handler = void (*)(const char*);
-Handler error_before = nullptr, warning_before = nullptr;
-
 // MuJoCo expects that this does not return. Its frames hold nothing that must be freed, and Debian builds them with
 // tables for unwinding.
 [[noreturn]] void fail(const char* message) { throw std::runtime_error(std::string("MuJoCo: ") + message); }
@@ -50,24 +47,36 @@ class ClassicLocale {
   bool is_other_ = own_ != std::locale::classic();
 };
 
+// MuJoCo has one pair of handlers in a process, and simulations that run side by side may each have a copy of this
+// library: whoever works puts its own in their place, and takes away none but its own. Both are as good to MuJoCo, but
+// a warning goes to those whose handler stands there.
+using Handler = void (*)(const char*);
+
+void put(Handler& place, Handler handler) {
+  if (__atomic_load_n(&place, __ATOMIC_RELAXED) != handler) __atomic_store_n(&place, handler, __ATOMIC_RELAXED);
+}
+
+void take_away(Handler& place, Handler handler) {
+  __atomic_compare_exchange_n(&place, &handler, nullptr, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+}
+
 void set_handlers() {
-  mju_user_error = fail;
-  mju_user_warning = count;
+  put(mju_user_error, fail);
+  put(mju_user_warning, count);
 }
 
 }  // namespace
 
 Library::Library() {
   const std::lock_guard<std::mutex> lock(global);
-  if (users++) return;
-  error_before = mju_user_error, warning_before = mju_user_warning;
-  set_handlers();
+  if (users++ == 0) set_handlers();
 }
 
 Library::~Library() {
   const std::lock_guard<std::mutex> lock(global);
   if (--users) return;
-  mju_user_error = error_before, mju_user_warning = warning_before;
+  take_away(mju_user_error, fail);
+  take_away(mju_user_warning, count);
 }
 
 Warnings::Warnings() { counted = this; }
@@ -99,6 +108,7 @@ Data data_of(const mjModel* model) {
 
 void at_work(void (*work)(void*), void* with) {
   const std::shared_lock<std::shared_mutex> shared(compiling);
+  set_handlers();
   work(with);
 }
 

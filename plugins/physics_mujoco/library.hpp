@@ -11,7 +11,7 @@ namespace muster::mujoco {
 static_assert(sizeof(mjtNum) == sizeof(double), "Debian's MuJoCo is of double precision");
 
 // While any is alive, MuJoCo's errors are std::runtime_error and its warnings are counted: it neither ends the process
-// nor writes a file. The last one gives the process back the handlers that it had before.
+// nor writes a file. The last one takes its handlers away: MuJoCo has its own then.
 class Library {
  public:
   Library();

@@ -36,7 +36,8 @@ double beside_walls(const LawSources& s, const VectorXd& residual, const LawTest
   return 0;
 }
 
-// Pairs of successive readings of a link that both need a law, and how many there would be in another order.
+// Pairs of successive readings of a link that both need a law, and how many there would be in another order of each
+// link's.
 struct Successive {
   int pairs = 0;
   double by_chance = 0;
@@ -49,21 +50,24 @@ Successive successive(const LawSources& s, const VectorXd& residual, const LawTe
   for (Index i = 0, tested = 0; i < residual.size(); ++i) {
     if (std::isfinite(residual[i])) won[i] = law.won[tested++];
   }
+  struct Link {
+    bool last_needs = false;
+    double readings = 0, needing = 0;
+  };
   const LinkReadings& r = s.readings;
-  std::map<std::pair<int, int>, bool> last;  // by link: if its last reading needs the law
+  std::map<std::pair<int, int>, Link> links;
   Successive result;
-  double needed = 0, all = 0, followed = 0;
   for (const Index i : in_order_of_time(r)) {
     if (!std::isfinite(won[i])) continue;
-    const bool needs = won[i] > thresholds::needs_law;
     const auto k = static_cast<std::size_t>(i);
-    const auto [before, first] = last.try_emplace({r.tx[k], r.rx[k]}, needs);
-    if (!first) followed += 1, result.pairs += needs && before->second;
-    before->second = needs;
-    needed += needs;
-    all += 1;
+    Link& link = links[{r.tx[k], r.rx[k]}];
+    const bool needs = won[i] > thresholds::needs_law;
+    result.pairs += needs && link.last_needs;
+    link.last_needs = needs;
+    link.readings += 1;
+    link.needing += needs;
   }
-  result.by_chance = followed * (needed / all) * (needed / all);
+  for (const auto& [ends, link] : links) result.by_chance += link.needing * (link.needing - 1) / link.readings;
   return result;
 }
 
