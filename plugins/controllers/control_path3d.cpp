@@ -55,7 +55,8 @@ struct ControlPath3d {
         path(s.file<WayPoint3d>("path")),
         seen(s.read<Position3d>("robot/{robot}/position3d")),
         asked(s.write<Velocity3d>("robot/{robot}/velocity3d")) {
-    const auto* robot = description::WorldRobots(s, description::Meshes::skip).of(s.param("robot") + 1);
+    const description::WorldRobots robots(s, description::Meshes::skip);
+    const auto* robot = robots.of(s.param("robot") + 1);
     if (robot && !robot->quadrotor && (robot->drive || robot->legs))
       throw BadInput(model_in_words(s) + " is on the ground and does not fly; expected <control.waypoint/>" +
                      or_a_model(s, "<quadrotor", "flies"));

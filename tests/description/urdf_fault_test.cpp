@@ -242,7 +242,8 @@ const Case cases[] = {
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y): it is at y = "
      "0.1 m, expected 100; is wheel_base=\"200\" in millimetres? expected 0.2"},
     {"parent_and_child_of_a_wheel_exchanged",
-     link("a", mass) + link("b", mass) + link("c", mass) + joint("jl", "b", "a", "continuous", "<axis xyz='0 1 0'/>") +
+     link("a", mass) + link("b", mass) + link("c", mass) +
+         joint("jl", "b", "a", "continuous", "<origin xyz='0 0.1 0'/><axis xyz='0 1 0'/>") +
          joint("jr", "a", "c", "continuous", "<axis xyz='0 1 0'/>") + "<muster><differential " + good + "/></muster>",
      "5: joint 'jl', a wheel of <differential> (line 7), carries link 'a', on which is the wheel of joint 'jr'; are "
      "<parent> and <child> of 'jl' exchanged?"},

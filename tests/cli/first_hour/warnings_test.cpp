@@ -193,7 +193,7 @@ TEST(FirstHour, AttributesThatCountOnlyBesideAnother) {
 TEST(FirstHour, ASensitivityBelowThatOfTheReceiver) {
   const auto with = [](const std::string& network, const std::string& more = "") {
     return warnings_of(base + rover + "<physics.simbody/><radio.multiwall/>" + more + "\n<network.ideal " + network +
-                       "/>");
+                       "/><control.beacon radio=\"base\"/>");
   };
   const std::string doubt =
       "warning: world.xml:5:29: attribute \"sensitivity\": -120 dBm is below the -95 dBm of "
