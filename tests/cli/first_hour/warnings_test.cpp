@@ -168,7 +168,7 @@ TEST(FirstHour, ARobotThatKeepsALinkToItself) {
 }
 
 TEST(FirstHour, AttributesThatCountOnlyBesideAnother) {
-  const std::string radios = base + rover + "<physics.simbody/><network.ideal/>\n";
+  const std::string radios = base + rover + "<physics.simbody/><network.ideal/><control.beacon radio=\"base\"/>\n";
   EXPECT_EQ(warnings_of(radios + "<radio.multiwall radius=\"8\"/>"),
             "warning: world.xml:5:26: attribute \"radius\": has no effect without model=\"disc\"; expected "
             "model=\"disc\" beside it, or no radius\n");
@@ -178,12 +178,12 @@ TEST(FirstHour, AttributesThatCountOnlyBesideAnother) {
             "");
   const ProgramFolder folder;
   folder.write("goals.csv", "x[m],y[m]\n1,-3\n");
-  folder.write("world.xml", world_of("\n" + wall + radios + channel + "<robots.roadmap robot=\"rover\"/>\n" +
+  folder.write("world.xml", world_of("\n" + wall + radios + "<radio.multiwall/>\n<robots.roadmap robot=\"rover\"/>\n" +
                                      "<control.navigate robot=\"rover\" goals=\"goals.csv\" station=\"base\" "
                                      "threshold=\"-55\" reach=\"2\" weight=\"2\"/>"));
   const std::string out = folder.muster({"check", "world.xml"}).out;
   EXPECT_THAT(out,
-              testing::HasSubstr("world.xml:8:62: attribute \"station\": has no effect without rssi=\"...\", nor "
+              testing::HasSubstr("world.xml:8:60: attribute \"station\": has no effect without rssi=\"...\", nor "
                                  "has \"threshold\" or \"weight\"; expected rssi=\"...\" beside it, or no station, "
                                  "threshold and weight\n"));
   EXPECT_THAT(out, testing::HasSubstr("attribute \"reach\": has no effect without laser=\"true\"; expected "
