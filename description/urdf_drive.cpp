@@ -57,6 +57,10 @@ std::string doubt_of_length(const XMLElement& element, const char* attribute, do
 std::string doubt_of_radius(const XMLElement& element, double given, double real) {
   constexpr double alike = 0.02;
   if (std::string unit = doubt_of_length(element, "wheel_radius", given, real); !unit.empty()) return unit;
+  for (const auto& [unit, parts] : {std::pair{"millimetres", 1000.0}, std::pair{"centimetres", 100.0}}) {
+    if (std::abs(real - parts * given) < alike * real)
+      return std::string("; is the shape in ") + unit + "? expected " + print_number(real / parts) + " there";
+  }
   return std::string(std::abs(given - 2 * real) < alike * given ? "; is it the diameter? expected " : "; expected ") +
          "wheel_radius=\"" + print_number(real) + '"';
 }
@@ -183,6 +187,10 @@ std::string lying_flat(const Robot& robot, const Joint& joint, const Eigen::Vect
 
 std::string doubt_of_place(const XMLElement& element, const char* width, double is, double expected) {
   if (std::abs(is + expected) <= placement_tolerance) return "; are left and right exchanged?";
+  const char* radius = element.Attribute("wheel_radius");
+  const auto given = radius ? parse_number(radius) : std::nullopt;
+  if (given && std::abs(*given - 2 * std::abs(is)) <= placement_tolerance)
+    return std::string("; are wheel_radius and ") + width + " exchanged?";
   return doubt_of_length(element, width, 2 * std::abs(expected), 2 * std::abs(is));
 }
 
@@ -265,6 +273,35 @@ void complete_drive(const Source& source, const XMLElement& element, Differentia
   warn_of_creeping(source, element, drive, robot);
 }
 
+namespace {
+
+// Of the joints from the robot's root to a link, the first that moves; there is one.
+std::size_t first_moving(const Robot& robot, std::size_t link) {
+  std::size_t result = 0;
+  for (bool is_root = false; !is_root;) {
+    is_root = true;
+    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+      if (robot.joints[i].child != link) continue;
+      if (robot.joints[i].kind != JointKind::fixed) result = i;
+      link = robot.joints[i].parent, is_root = false;
+      break;
+    }
+  }
+  return result;
+}
+
+// True where an attribute of the element names the joint.
+bool is_named_in(const XMLElement& element, const std::string& joint) {
+  for (const auto* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    std::istringstream names(attribute->Value());
+    for (std::string name; names >> name;)
+      if (name == joint) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::size_t find_joint(const Source& source, const XMLElement& element, const char* attribute, const Robot& robot) {
   return find_named(source, element, attribute, required(source, element, attribute), robot);
 }
@@ -281,7 +318,16 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
   if (joint.kind != JointKind::continuous)
     source.fail(line, what + "is " + law_of(joint.kind).name + "; expected type=\"continuous\"");
   const auto carrier = frame_on_body(robot, joint.parent);
-  if (!carrier) source.fail(line, what + "is not on the robot's body: a joint between them moves");
+  if (!carrier) {
+    const Joint& between = robot.joints[first_moving(robot, joint.parent)];
+    const int own = line_of_joint(element, between.name);
+    if (own > 0 && is_named_in(element, between.name))  // the body hangs on one of its wheels
+      source.fail(own, "joint '" + between.name + "', a wheel of " + tag(element) + "(line " +
+                           std::to_string(element.GetLineNum()) + "), carries link '" +
+                           robot.links[between.child].name + "', on which is the wheel of joint '" + joint.name +
+                           "'; are <parent> and <child> of '" + between.name + "' exchanged?");
+    source.fail(line, what + "is not on the robot's body: joint '" + between.name + "' between them moves");
+  }
   const Eigen::Isometry3d frame = *carrier * joint.origin;
   const Eigen::Vector3d axis = frame.linear() * joint.axis;
   if (!(axis - Eigen::Vector3d::UnitY()).isZero(axis_tolerance)) {

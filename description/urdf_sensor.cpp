@@ -118,7 +118,12 @@ std::size_t find_link(const Source& source, const XMLElement& parent, const Robo
     if (robot.links[i].name == name) return i;
     names.push_back(robot.links[i].name);
   }
-  source.fail(parent.GetLineNum(), "sensor '" + sensor + "': link '" + name + "' is not known" + nearest(name, names));
+  const std::string remedy = nearest(name, names);
+  std::string links;
+  for (std::size_t i = 0; remedy.empty() && i < std::min<std::size_t>(names.size(), 30); ++i)
+    links += (i == 0 ? "; expected one of its links: " : ", ") + names[i];
+  source.fail(parent.GetLineNum(),
+              "sensor '" + sensor + "': link '" + name + "' is not known" + (remedy.empty() ? links : remedy));
 }
 
 }  // namespace

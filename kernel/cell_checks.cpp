@@ -77,7 +77,8 @@ constexpr const char* unfilled =
     "is not filled; expected step() to fill each cell that it writes in every tick, also where nothing is to change";
 
 std::string wrong_value(const Column& column, double value) {
-  if (std::bit_cast<uint64_t>(value) == poison_bits) return unfilled;
+  if (std::bit_cast<uint64_t>(value) == poison_bits)
+    return std::string(unfilled) + (column.nullable ? "; one without a value is muster::null()" : "");
   if (std::isnan(value)) {
     if (!column.nullable) return "is NaN; expected a number: 0 / 0 is none, nor a logarithm or root of less than 0";
     return std::bit_cast<uint64_t>(value) == MUSTER_NULL_BITS ? "" : "is NaN; an empty cell is muster::null()";

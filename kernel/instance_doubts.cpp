@@ -61,6 +61,91 @@ std::string of_time(uint32_t phase, const muster_param& declared, double value, 
   return "";
 }
 
+// How the help of an attribute ends that counts only beside another: `; only with rssi`, `; only with model="disc"`.
+constexpr std::string_view only_with = "; only with ";
+
+// True where the attribute that `condition` names has the value in it, or any but none.
+bool holds(const std::string& condition, const muster_plugin& plugin, const std::vector<double>& values,
+           const InstanceDeclaration& declared) {
+  const auto equals = condition.find("=\"");
+  const int number = find_param(plugin, condition.substr(0, equals));
+  if (number < 0) return true;
+  const muster_param& param = plugin.params[number];
+  const double value = values[static_cast<std::size_t>(number)];
+  if (equals != condition.npos)
+    return value_text(param, value) == condition.substr(equals + 2, condition.size() - equals - 3);
+  if (param.kind == MUSTER_REFERENCE) return value >= 0;
+  if (param.kind != MUSTER_TEXT && param.kind != MUSTER_FILE) return value != 0;
+  const XmlAttribute* given = declared.attribute(param.name);
+  return given ? !given->value.empty() : param.text && *param.text;
+}
+
+// True where the run sets the attribute later.
+bool is_set_later(const World& world, const std::string& path) {
+  return std::any_of(world.occasions.begin(), world.occasions.end(), [&](const Occasion& occasion) {
+    return std::any_of(occasion.rows.begin(), occasion.rows.end(), [&](const RowChange& c) { return c.path == path; });
+  });
+}
+
+// Warns once for each condition that does not hold, at the first attribute that counts only with it.
+void warn_of_idle(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
+                  const World& world, const Warn& warn) {
+  std::vector<std::pair<std::string, std::vector<const XmlAttribute*>>> idle;
+  for (const auto& given : declared.attributes) {
+    const std::string_view help = plugin.params[find_param(plugin, given.name)].help;
+    const auto at = help.rfind(only_with);
+    if (at == help.npos) continue;
+    const std::string condition(help.substr(at + only_with.size()));
+    if (holds(condition, plugin, values, declared) ||
+        is_set_later(world, declared.name + '/' + condition.substr(0, condition.find('='))))
+      continue;
+    const auto found =
+        std::find_if(idle.begin(), idle.end(), [&](const auto& each) { return each.first == condition; });
+    if (found == idle.end()) {
+      idle.emplace_back(condition, std::vector<const XmlAttribute*>{&given});
+    } else {
+      found->second.push_back(&given);
+    }
+  }
+  for (const auto& [condition, attributes] : idle) {
+    const int beside = find_param(plugin, condition);
+    const bool is_flag = beside >= 0 && plugin.params[beside].kind == MUSTER_FLAG;
+    const std::string wanted =
+        condition.find('=') != condition.npos ? condition : condition + (is_flag ? "=\"true\"" : "=\"...\"");
+    std::string others, all = attributes[0]->name;
+    for (std::size_t i = 1; i < attributes.size(); ++i) {
+      others += (i == 1 ? ", nor has " : i + 1 < attributes.size() ? ", " : " or ") + quote(attributes[i]->name);
+      all += (i + 1 < attributes.size() ? ", " : " and ") + attributes[i]->name;
+    }
+    warn(attributes[0]->value_place, "attribute " + quote(attributes[0]->name) + ": has no effect without " + wanted +
+                                         others + "; expected " + wanted + " beside it, or no " + all);
+  }
+}
+
+// The warning of a reader's threshold; "" where it has none, where none is written, and where it has an effect.
+std::string beyond(const World& world, const std::string& table, const Instance& writer, const Instance& reader) {
+  const muster_clip* clip = writer.plugin().clip;
+  if (!clip || clip->side != MUSTER_BELOW || clip->choice || clip->silent != 1) return "";
+  const std::string level = clip->level;
+  const XmlAttribute* given = reader.declared().attribute(level);
+  const int own = reader.find_param(level), cut = writer.find_param(level);
+  if (!given || own < 0 || cut < 0) return "";
+  const muster_param& param = reader.plugin().params[own];
+  const double asked = reader.params()[static_cast<std::size_t>(own)],
+               least = writer.params()[static_cast<std::size_t>(cut)];
+  if (param.kind != MUSTER_REAL || std::string(param.unit) != writer.plugin().params[cut].unit || !(asked < least) ||
+      is_set_later(world, writer.name() + '/' + level) || is_set_later(world, reader.name() + '/' + level))
+    return "";
+  const std::string plugin = writer.declared().plugin, unit = std::string(" ") + param.unit,
+                    wanted = level + "=\"" + print_real(asked) + '"';
+  return given->value_place.text() + ": attribute " + quote(level) + ": " + print_real(asked) + unit +
+         " is below the " + print_real(least) + unit + " of " + plugin + ", below which " + table +
+         " has no value, so that it has no effect; expected " +
+         (writer.declared().needed_by.empty() ? wanted + " of " + plugin + " (" + writer.place().text() + ')'
+                                              : '<' + plugin + ' ' + wanted + "/> in the world") +
+         ", or " + level + "=\"" + print_real(least) + '"';
+}
+
 }  // namespace
 
 void check_together(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
@@ -83,6 +168,19 @@ void check_together(const muster_plugin& plugin, const std::vector<double>& valu
     if (given.name == "until" && value == 0) doubt = "0 s is the start of the run, so that it does nothing";
     if (!doubt.empty()) warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
   }
+  warn_of_idle(plugin, values, declared, world, warn);
+}
+
+std::vector<std::string> beyond_clips(const std::map<std::string, Claimed>& claimed, const World& world) {
+  std::vector<std::string> result;
+  for (const auto& [logical, c] : claimed) {
+    if (c.writers.size() != 1 || !c.modifiers.empty()) continue;  // a stage may lower what is reported
+    for (const auto& by : c.readers) {
+      const std::string doubt = beyond(world, logical, *c.writers[0].instance, *by.instance);
+      if (!doubt.empty() && std::find(result.begin(), result.end(), doubt) == result.end()) result.push_back(doubt);
+    }
+  }
+  return result;
 }
 
 }  // namespace muster

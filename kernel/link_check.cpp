@@ -126,6 +126,17 @@ std::string of_network(const std::string& quantity, const Instance* network) {
          "), does not read, so that it has no effect; expected " + known->readers;
 }
 
+// An instance that writes what muster knows as this plugin's: a world has one of the two. Null where there is none.
+const Instance* in_place_of(const std::string& plugin, const std::map<std::string, Claimed>& claimed,
+                            const Standard& standard) {
+  for (const auto& [logical, c] : claimed) {
+    const TableName name{logical.substr(0, logical.find('/')), "*", logical.substr(logical.rfind('/') + 1), ""};
+    const Quantity* known = standard_quantity(standard, name);
+    if (known && plugin == known->provider && !c.writers.empty()) return c.writers[0].instance;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 // Lists tables written but never read, and fixed rows of the world that no plugin reads.
@@ -150,6 +161,14 @@ std::vector<std::string> Linker::unread() const {
       if (!is_for_others(by) || !silent.insert(by.instance).second) continue;
       const Quantity* standard = standard_quantity(standard_, by.get().name);
       const std::string unheard = standard ? "" : of_network(by.get().name.quantity, network);
+      if (const Instance* other = standard ? in_place_of(standard->user, claimed_, standard_) : nullptr;
+          other && other->declared().plugin != standard->user) {
+        result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which " +
+                         other->title() + " does not read, so that it has no effect; expected <" + standard->user +
+                         "/> in the place of " + other->declared().plugin + ", or no " +
+                         by.instance->declared().plugin);
+        continue;
+      }
       result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which " +
                        (unheard.empty() ? "nobody reads" : unheard) +
                        (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world"

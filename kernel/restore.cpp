@@ -59,10 +59,15 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     const auto common = std::min(set->names.size(), saved.names.size());
     const bool same =
         std::equal(saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
+    if (!same) {
+      const auto [theirs, ours] = std::mismatch(
+          saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
+      refuse("its set " + quote(name) + " has other rows: " + quote(*theirs) + " there, " + quote(*ours) + " here");
+    }
     const bool whole =
         saved.alive.size() == saved.names.size() && saved.like.size() == saved.names.size() &&
         std::all_of(saved.like.begin(), saved.like.end(), [&](auto row) { return row < saved.like.size(); });
-    if (!same || !whole) refuse("its set " + quote(name) + " has other rows");
+    if (!whole) refuse("its set " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : board_.tables()) {
     const auto found = snapshot.tables.find(name);

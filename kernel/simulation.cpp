@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "carriers.hpp"
+#include "instance_doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -179,6 +180,8 @@ void Simulation::relink() {
                        linker.is_given(table) ? "nobody reads " + table + " any more, which the world gives"
                                               : "dropped " + table + ", which nobody writes any more"});
   auto unread = linker.unread();
+  const auto beyond = beyond_clips(linker.claimed(), world_);
+  unread.insert(unread.end(), beyond.begin(), beyond.end());
   for (const auto& warning : unread) {
     if (std::find(unread_.begin(), unread_.end(), warning) == unread_.end())
       events_.push_back({tick_, "", "warning: " + warning});

@@ -24,9 +24,15 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 std::string file_in(const std::filesystem::path& folder) {
   std::vector<std::string> files;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+  bool has_sqlite = false;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     if (entry.path().extension() == ".mcap") files.push_back(entry.path().string());
+    has_sqlite = has_sqlite || entry.path().extension() == ".db3";
+  }
   std::sort(files.begin(), files.end());
+  if (files.empty() && has_sqlite)
+    return "; expected an MCAP file, and it has none: its .db3 is a bag in SQLite, which ros2 bag convert writes anew "
+           "with storage_id: mcap";
   if (files.empty()) return "; expected an MCAP file, and it has none";
   return files.size() == 1 ? "; expected the MCAP file in it, " + files[0]
                            : "; expected one of its MCAP files, such as " + files[0];

@@ -151,6 +151,10 @@ void TextTable::fail_ragged(std::size_t found) const {
   if (text[start] == '\n' || text[start] == '\r')
     throw invalid(file_.place(start), "the line is empty; expected a row");
   const std::string first = text.substr(0, text.find_first_of("\r\n"));
+  if (width_ == 1 && first.find(": ") != first.npos)
+    throw invalid(file_.place(0), "the first line is " + quote(first) +
+                                      ", as of a YAML file, and no header; expected a table: a header of names, and "
+                                      "',' between cells");
   if (row_starts_.size() == 2 && width_ == 1)
     throw invalid(file_.place(0), "the first line is " + (first.empty() ? "empty" : quote(first)) +
                                       " and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");

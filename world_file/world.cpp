@@ -56,8 +56,9 @@ uint64_t ticks_of(double time, double dt, const Place& place) {
     throw invalid(place, print_real(time) + " s are " + print_real(ticks) + " ticks of " + print_real(dt) +
                              " s; expected fewer than 1e+12");
   if (time > 0 && time < dt)
-    throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) +
-                             " s; expected a longer time, or a smaller dt");
+    throw invalid(place, print_real(time) + " s are less than a tick of " + print_real(dt) + " s; " +
+                             (dt >= 10 ? "is dt in milliseconds? expected dt=\"" + print_real(dt / 1000) + "\", in s"
+                                       : "expected a longer time, or a smaller dt"));
   return static_cast<uint64_t>(ticks);
 }
 

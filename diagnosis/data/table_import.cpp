@@ -156,7 +156,7 @@ class Importer {
   }
 
   // Checks a rule against the format's definition of its column.
-  static void check_rule(const ColumnRule& rule) {
+  void check_rule(const ColumnRule& rule) const {
     const auto known = reading_columns().find(rule.column.name);
     const auto made_in = [&](const std::string& unit, const std::string& what) {
       if (rule.column.unit != unit)
@@ -172,11 +172,17 @@ class Importer {
     if (rule.column.unit != unit)
       throw invalid(rule.place, "column " + quote(rule.column.label()) + " has the wrong unit; expected " +
                                     quote(TextColumn{name, unit}.label()) + ", and SCALE*COLUMN where that differs");
-    if (unit.empty() && !rule.is_name)
-      throw invalid(
-          rule.place,
-          quote(name) + " is a column of names; expected " + name + " = " +
-              (!rule.number || rule.number->from.column.empty() ? "\"NAME\"" : "name " + rule.number->from.column));
+    if (unit.empty() && !rule.is_name) {
+      const std::string from = rule.number ? rule.number->from.column : "",
+                        begin = quote(name) + " is a column of names";
+      const bool is_there =
+          from.empty() || (rule.number && !rule.number->from.table.empty()) || from.find('{') != from.npos ||
+          std::any_of(source_.files().begin(), source_.files().end(), [&](const auto& t) { return t.has(from); });
+      if (!is_there)
+        throw invalid(rule.place, begin + ", and " + source_.files()[0].file() + " has no column " + from +
+                                      "; expected " + name + " = " + quote(from) + ", the same name in all rows");
+      throw invalid(rule.place, begin + "; expected " + name + " = " + (from.empty() ? "\"NAME\"" : "name " + from));
+    }
   }
 
   void check_all_there() const {

@@ -78,7 +78,8 @@ struct ControlConnectivity {
         outbox(s.write<Outgoing>("outbox/{robot}/message")),
         state(s.write<State>("self/state")) {
     for (const char* other : {"parent", "child"}) expect_another_radio(s, other, radio, "the robot's own radio");
-    expect_another_radio(s, "child", parent, "the parent already");
+    expect_another_radio(s, "child", parent, "the parent already", radio,
+                         leads ? "; a leader needs no child" : "; a robot without one is role=\"leader\"");
     if (switching == Switching::hysteresis) turned = s.write<Turned>("self/turned");
     if (!leads && child < 0) throw BadInput("a follower has a child; expected child=\"NAME\" or role=\"leader\"");
   }

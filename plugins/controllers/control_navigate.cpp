@@ -50,12 +50,12 @@ struct ControlNavigate {
       reference("robot", "robot", "the robot it steers").required(),
       file("roadmap", "of muster roadmap; by default the robot's own, of robots.roadmap"),
       file("goals", "x[m],y[m] of places to go to in turn; by default robot/*/goal2d"),
-      flag("loop", false, "begin anew after the last row of goals"),
+      flag("loop", false, "begin anew after the last row of goals; only with goals"),
       flag("laser", false, "echoes that are on no wall of the roadmap close pieces of it"),
       file("rssi", "of muster map: x[m],y[m] and a column of the station, such as base[dBm]"),
-      reference("station", "radio", "whose column of rssi counts"),
-      real("threshold", -70, -200, 100, "dBm", "rssi below which a way costs more"),
-      real("weight", 0.1, 0, 1000, "1/dB", "cost of a metre for each dB below the threshold"),
+      reference("station", "radio", "whose column of rssi counts; only with rssi"),
+      real("threshold", -70, -200, 100, "dBm", "rssi below which a way costs more; only with rssi"),
+      real("weight", 0.1, 0, 1000, "1/dB", "cost of a metre for each dB below the threshold; only with rssi"),
       real("speed", 0.3, 0, 10, "m/s", "along the way"),
       real("slow_gain", 1, 0, 100, "1/s", "speed for each metre that is left"),
       real("turn_gain", 2, 0, 100, "1/s", "at the goal: turn rate for each radian of bearing"),
@@ -63,9 +63,9 @@ struct ControlNavigate {
       real("lookahead", 0.25, 0.01, 10, "m", "how far along the way it aims"),
       real("tolerance", 0.05, 1e-6, 10, "m", "the goal is reached within this distance"),
       real("turn_tolerance", 0.01, 1e-6, 3, "rad", "and the heading within this angle"),
-      real("off_plan", 0.2, 0, 10, "m", "an echo farther than this from every wall is an obstacle"),
-      real("reach", 3, 0.01, 1000, "m", "echoes from beyond are left out"),
-      real("forget", 30, 0.001, 1e6, "s", "an obstacle that was not seen for so long is gone")};
+      real("off_plan", 0.2, 0, 10, "m", "an echo farther than this from every wall is an obstacle; only with laser"),
+      real("reach", 3, 0.01, 1000, "m", "echoes from beyond are left out; only with laser"),
+      real("forget", 30, 0.001, 1e6, "s", "an obstacle that was not seen for so long is gone; only with laser")};
 
   enum Status { no_goal, on_its_way, there, no_way };
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plugins/table_rows.hpp"
+#include "robot_model.hpp"
 #include "timed_path.hpp"
 
 namespace {
@@ -53,7 +54,13 @@ struct ControlPath3d {
         rows(s, "path"),
         path(s.file<WayPoint3d>("path")),
         seen(s.read<Position3d>("robot/{robot}/position3d")),
-        asked(s.write<Velocity3d>("robot/{robot}/velocity3d")) {}
+        asked(s.write<Velocity3d>("robot/{robot}/velocity3d")) {
+    const description::WorldRobots robots(s, description::Meshes::skip);
+    const auto* robot = robots.of(s.param("robot") + 1);
+    if (robot && !robot->quadrotor && (robot->drive || robot->legs))
+      throw BadInput(model_in_words(s) + " is on the ground and does not fly; expected <control.waypoint/>" +
+                     or_a_model(s, "<quadrotor", "flies"));
+  }
 
   void step(const Step& k) const {
     if (k.tick() == 1) warn_of_depth(k);

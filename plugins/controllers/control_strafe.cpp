@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "description/world_robots.hpp"
 #include "plugins/heading.hpp"
 #include "roadmap.hpp"
+#include "robot_model.hpp"
 
 namespace {
 
@@ -59,18 +59,10 @@ struct ControlStrafe {
     const description::WorldRobots robots(s, description::Meshes::skip);
     const auto* robot = robots.of(row + 1.0);
     if (robot && robot->drive && robot->drive->mecanum) return;
-    const std::string name = s.host()->row_name(s.host(), "robot", row);
-    std::vector<std::string> folders;
-    for (uint32_t i = 0; const char* next = s.host()->search_path(s.host(), i); ++i)
-      folders.push_back(std::string(next) + "/models");
-    std::string have;
-    for (const std::string& each : description::models_with("<mecanum", folders))
-      have += (have.empty() ? "" : ", ") + each;
-    throw BadInput("the model \"" + s.text("robot/" + name + "/model") + "\" of robot \"" + name + "\" (" +
-                   s.text("robot/" + name + "/place") +
-                   ") has no wheels with rollers (<mecanum>), so that it cannot go sideways; expected "
+    throw BadInput(model_in_words(s) +
+                   " has no wheels with rollers (<mecanum>), so that it cannot go sideways; expected "
                    "<control.waypoint/>, which turns" +
-                   (have.empty() ? "" : ", or a model that has them: " + have));
+                   or_a_model(s, "<mecanum", "has them"));
   }
 
   void step(const Step& k) const {

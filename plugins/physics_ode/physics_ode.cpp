@@ -55,8 +55,8 @@ struct PhysicsOde {
   static constexpr Param params[] = {
       real("step", 0.001, 1e-6, 0.1, "s", "longest step inside a tick"),
       choice("solver", "exact|quick", "dWorldStep or dWorldQuickStep"),
-      integer("iterations", 50, 1, 100000, "of the quick solver in a step"),
-      real("over_relaxation", 1.3, 0.1, 1.99, "", "of the quick solver"),
+      integer("iterations", 50, 1, 100000, "of the quick solver in a step; only with solver=\"quick\""),
+      real("over_relaxation", 1.3, 0.1, 1.99, "", "of the quick solver; only with solver=\"quick\""),
       real("erp", 0.2, 0, 1, "", "share of an error of joints and contacts that a step takes back"),
       real("cfm", 1e-10, 0, 1, "", "softness of joints and contacts, as ODE defines it"),
       real("friction", 0.3, 0, 10, "", "of bodies with walls, robots and ground; wheels have their model's"),

@@ -25,7 +25,7 @@ struct RadioMultiwall {
       real("l0", 40, 0, 150, "dB", "loss at 1 m").free(),
       real("n", 2, 0, 10, "", "path-loss exponent").free(),
       choice("model", "multi_wall|log_distance|disc|perfect", "what is modelled"),
-      real("radius", 20, 0.01, 1e6, "m", "of the disc"),
+      real("radius", 20, 0.01, 1e6, "m", "of the disc; only with model=\"disc\""),
   };
 
   explicit RadioMultiwall(Setup& s)

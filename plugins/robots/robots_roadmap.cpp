@@ -48,13 +48,14 @@ struct RobotsRoadmap {
       "Meshes of the world are not seen. control.navigate reads the result, robot/*/roadmap; its graph has the rows\n"
       "of the table that `muster roadmap` writes.";
   static constexpr auto phase = MUSTER_SENSE;
-  static constexpr Param params[] = {reference("robot", "robot", "the robot that is given it").required(),
-                                     choice("method", "visibility|grid", "the reduced visibility graph, or a lattice"),
-                                     real("step", 0.5, 0.01, 100, "m", "between places of the grid"),
-                                     real("radius", 0, 0, 100, "m", "of the robot; 0: by its model"),
-                                     real("margin", 0.05, 0, 100, "m", "that it keeps from walls beyond its radius"),
-                                     real("room", 1, 0, 1000, "m", "around walls and robot in which it plans"),
-                                     flag("open_doors", false, "doors that are closed at the start count as open")};
+  static constexpr Param params[] = {
+      reference("robot", "robot", "the robot that is given it").required(),
+      choice("method", "visibility|grid", "the reduced visibility graph, or a lattice"),
+      real("step", 0.5, 0.01, 100, "m", "between places of the grid; only with method=\"grid\""),
+      real("radius", 0, 0, 100, "m", "of the robot; 0: by its model"),
+      real("margin", 0.05, 0, 100, "m", "that it keeps from walls beyond its radius"),
+      real("room", 1, 0, 1000, "m", "around walls and robot in which it plans"),
+      flag("open_doors", false, "doors that are closed at the start count as open")};
 
   explicit RobotsRoadmap(Setup& s)
       : is_grid(s.param("method") == 1),

@@ -191,6 +191,28 @@ TEST(Mjcf, ARangeWithinATurnOfRadiansIsAskedAbout) {
   EXPECT_EQ(warnings("<compiler angle='radian'/>", "-1.57 1.57"), "");
 }
 
+TEST(Mjcf, DegreesWhereTheFileHasRadiansAreAskedAbout) {
+  const auto warnings = [](const std::string& compiler, const std::string& euler) {
+    const Files files;
+    const std::string path = files.write("arm.xml", "<mujoco>" + compiler +
+                                                        "<worldbody><body name='b'><freejoint/><geom size='1'/>\n"
+                                                        "<body name='c' euler='" +
+                                                        euler +
+                                                        "'><joint name='j'/><geom size='1'/></body></body></worldbody>"
+                                                        "</mujoco>");
+    std::string result;
+    for (const std::string& warning : read_robot(path).warnings)
+      if (warning.find("euler") != warning.npos) result += warning.substr(path.size());
+    return result;
+  };
+  const std::string radians = "<compiler angle='radian'/>";
+  EXPECT_EQ(warnings(radians, "90 0 -45"),
+            ":2: <body> euler=\"90 0 -45\" is beyond a whole turn in radians, which the file has (angle=\"radian\"); "
+            "are these degrees? expected euler=\"1.571 0 -0.7854\", or <compiler angle=\"degree\"/> of all angles");
+  EXPECT_EQ(warnings(radians, "1.5707963 0 -3.14"), "");
+  EXPECT_EQ(warnings("", "90 0 -45"), "");
+}
+
 TEST(MjcfFault, IsNamedWithItsLine) {
   const auto fault = [](const std::string& text) {
     const Files files;

@@ -83,6 +83,8 @@ const Case cases[] = {
      "5: <sensor> has no attribute 'update_rat'; did you mean 'update_rate'?"},
     {"laser_on_no_link", laser("", "", "update_rate='10'", "link='c'"),
      "6: sensor 's': link 'c' is not known; did you mean 'a'?"},
+    {"laser_on_a_link_of_another_name", laser("", "", "update_rate='10'", "link='laser_frame'"),
+     "6: sensor 's': link 'laser_frame' is not known; expected one of its links: a, b"},
     {"laser_on_what_moves", laser("", "", "update_rate='10'", "link='b'"),
      "6: sensor 's' is not on the robot's body: a joint between them moves"},
     {"laser_samples", laser("samples='2.5'"),
@@ -239,6 +241,16 @@ const Case cases[] = {
      wheels("left='jl' right='jr' wheel_radius='50' wheel_base='200' max_torque='1' max_speed='9' friction='0.8'"),
      "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y): it is at y = "
      "0.1 m, expected 100; is wheel_base=\"200\" in millimetres? expected 0.2"},
+    {"parent_and_child_of_a_wheel_exchanged",
+     link("a", mass) + link("b", mass) + link("c", mass) +
+         joint("jl", "b", "a", "continuous", "<origin xyz='0 0.1 0'/><axis xyz='0 1 0'/>") +
+         joint("jr", "a", "c", "continuous", "<axis xyz='0 1 0'/>") + "<muster><differential " + good + "/></muster>",
+     "5: joint 'jl', a wheel of <differential> (line 7), carries link 'a', on which is the wheel of joint 'jr'; are "
+     "<parent> and <child> of 'jl' exchanged?"},
+    {"wheel_base_and_radius_exchanged",
+     wheels("left='jl' right='jr' wheel_radius='0.2' wheel_base='0.05' max_torque='1' max_speed='9' friction='0.8'"),
+     "7: <differential> joint 'jl' is not half a wheel_base from the body's x axis (left: +y, right: -y): it is at y = "
+     "0.1 m, expected 0.025; are wheel_radius and wheel_base exchanged?"},
     {"sides_exchanged",
      wheels("left='jr' right='jl' wheel_radius='0.05' wheel_base='0.2' max_torque='1' max_speed='9' friction='0.8'"),
      "7: <differential> joint 'jr' is not half a wheel_base from the body's x axis (left: +y, right: -y): it is at y = "
@@ -252,6 +264,10 @@ const Case cases[] = {
      wheels(good, "0 1 0", "0.1", round("<cylinder radius='0.09' length='0.02'/>", "1.5708 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
      "of 0.09; expected wheel_radius=\"0.09\""},
+    {"wheel_shape_in_millimetres",
+     wheels(good, "0 1 0", "0.1", round("<cylinder radius='50' length='20'/>", "1.5708 0 0")),
+     "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
+     "of 50; is the shape in millimetres? expected 0.05 there"},
     {"wheel_radius_contradicts_sphere", wheels(good, "0 1 0", "0.1", round("<sphere radius='0.04'/>", "0 0 0")),
      "7: <differential> wheel_radius=\"0.05\" contradicts the wheel of joint 'jr', whose collision shape has a radius "
      "of 0.04; expected wheel_radius=\"0.04\""},

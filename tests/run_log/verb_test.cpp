@@ -83,6 +83,11 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
           "--out is of recover, cut and csv; info writes no file; expected no --out, or info > b");
   std::filesystem::create_directories(folder.path() / "bag");
   refused({"log", "info", "bag"}, "bag: is a folder; expected an MCAP file, and it has none");
+  folder.write("bag/bag_0.db3", "x");
+  refused(
+      {"log", "info", "bag"},
+      "bag: is a folder; expected an MCAP file, and it has none: its .db3 is a bag in SQLite, which ros2 bag convert "
+      "writes anew with storage_id: mcap");
   folder.write("bag/bag_0.mcap", "x");
   refused({"log", "info", "bag"}, "bag: is a folder; expected the MCAP file in it, bag/bag_0.mcap");
   folder.write("bag/bag_1.mcap", "x");

@@ -105,6 +105,8 @@ TEST_F(Faults, Fault7Units) {
             "world.xml:1:24: attribute \"until\": -1 is out of bounds; expected the end of the run in seconds, from 0");
   EXPECT_EQ(error("<world dt='2' until='1.5'/>"),
             "world.xml:1:22: 1.5 s are less than a tick of 2 s; expected a longer time, or a smaller dt");
+  EXPECT_EQ(error("<world dt='50' until='20'/>"),
+            "world.xml:1:23: 20 s are less than a tick of 50 s; is dt in milliseconds? expected dt=\"0.05\", in s");
   EXPECT_EQ(error("<world dt='1e-6' until='1e6'/>"),
             "world.xml:1:25: 1e+06 s are 1e+12 ticks of 1e-06 s; expected fewer than 1e+12");
 }

@@ -163,7 +163,78 @@ TEST(FirstHour, ARobotThatKeepsALinkToItself) {
   refused("parent=\"base\" child=\"rover\"",
           "76: attribute \"child\": \"rover\" is the robot's own radio; expected another: base");
   refused("parent=\"base\" child=\"base\"",
-          "76: attribute \"child\": \"base\" is the parent already; expected another: rover");
+          "76: attribute \"child\": \"base\" is the parent already; expected another, and the world has none; a robot "
+          "without one is role=\"leader\"");
+}
+
+TEST(FirstHour, AttributesThatCountOnlyBesideAnother) {
+  const std::string radios = base + rover + "<physics.simbody/><network.ideal/><control.beacon radio=\"base\"/>\n";
+  EXPECT_EQ(warnings_of(radios + "<radio.multiwall radius=\"8\"/>"),
+            "warning: world.xml:5:26: attribute \"radius\": has no effect without model=\"disc\"; expected "
+            "model=\"disc\" beside it, or no radius\n");
+  EXPECT_EQ(warnings_of(radios + "<radio.multiwall model=\"disc\" radius=\"8\"/>"), "");
+  EXPECT_EQ(warnings_of(radios + "<radio.multiwall name=\"walls\" radius=\"8\"/>\n"
+                                 "<at t=\"0.5\"><set path=\"walls/model\" value=\"disc\"/></at>"),
+            "");
+  const ProgramFolder folder;
+  folder.write("goals.csv", "x[m],y[m]\n1,-3\n");
+  folder.write("world.xml", world_of("\n" + wall + radios + "<radio.multiwall/>\n<robots.roadmap robot=\"rover\"/>\n" +
+                                     "<control.navigate robot=\"rover\" goals=\"goals.csv\" station=\"base\" "
+                                     "threshold=\"-55\" reach=\"2\" weight=\"2\"/>"));
+  const std::string out = folder.muster({"check", "world.xml"}).out;
+  EXPECT_THAT(out,
+              testing::HasSubstr("world.xml:8:60: attribute \"station\": has no effect without rssi=\"...\", nor "
+                                 "has \"threshold\" or \"weight\"; expected rssi=\"...\" beside it, or no station, "
+                                 "threshold and weight\n"));
+  EXPECT_THAT(out, testing::HasSubstr("attribute \"reach\": has no effect without laser=\"true\"; expected "
+                                      "laser=\"true\" beside it, or no reach\n"));
+}
+
+TEST(FirstHour, ASensitivityBelowThatOfTheReceiver) {
+  const auto with = [](const std::string& network, const std::string& more = "") {
+    return warnings_of(base + rover + "<physics.simbody/><radio.multiwall/>" + more + "\n<network.ideal " + network +
+                       "/><control.beacon radio=\"base\"/>");
+  };
+  const std::string doubt =
+      "warning: world.xml:5:29: attribute \"sensitivity\": -120 dBm is below the -95 dBm of "
+      "radio.receiver, below which link/*/rssi has no value, so that it has no effect; expected ";
+  EXPECT_EQ(with("sensitivity=\"-120\""),
+            doubt + "<radio.receiver sensitivity=\"-120\"/> in the world, or sensitivity=\"-95\"\n");
+  EXPECT_EQ(with("sensitivity=\"-120\"", "<radio.receiver/>"),
+            doubt + "sensitivity=\"-120\" of radio.receiver (world.xml:4:37), or sensitivity=\"-95\"\n");
+  EXPECT_EQ(with("sensitivity=\"-120\"", "<radio.receiver sensitivity=\"-120\"/>"), "");
+  EXPECT_EQ(with("sensitivity=\"-80\""), "");
+  EXPECT_EQ(with("", "<radio.receiver sensitivity=\"-80\"/>"), "");
+}
+
+TEST(FirstHour, CommandsBesideALogThatMovesTheRobots) {
+  const ProgramFolder folder;
+  folder.write("log.csv", "t[s],robot,x[m],y[m],yaw[rad]\n0,rover,0,0,0\n1,rover,1,0,0\n");
+  folder.write("world.xml", world_of("\n" + rover + "<physics.replay file=\"log.csv\"/>\n" +
+                                     "<control.steady robot=\"rover\" v=\"1\" w=\"0\"/>"));
+  EXPECT_THAT(
+      folder.muster({"check", "world.xml"}).out,
+      testing::HasSubstr("warning: world.xml:4:1: control.steady (control.steady): writes "
+                         "\"robot/rover/command\", which world.xml:3:1: physics.replay (physics.replay) does not "
+                         "read, so that it has no effect; expected <physics.simbody/> in the place of "
+                         "physics.replay, or no control.steady\n"));
+}
+
+TEST(FirstHour, AWayInSpaceOfARobotOnTheGround) {
+  const ProgramFolder folder;
+  folder.write("way.csv", "x[m],y[m],z[m]\n0,5,1\n");
+  const auto checked = [&](const std::string& model) {
+    folder.write("world.xml", world_of("<robot name=\"rover\" model=\"" + model +
+                                       "\" at=\"0 0 0\"/><physics.simbody/>\n"
+                                       "<control.path3d robot=\"rover\" path=\"way.csv\"/>"
+                                       "<control.velocity3d robot=\"rover\"/>"));
+    return folder.muster({"check", "world.xml"});
+  };
+  expect_error(checked("scarab"), 2,
+               "world.xml:2:1: control.path3d (control.path3d): the model \"scarab\" of robot \"rover\" "
+               "(world.xml:1:36) is on the ground and does not fly; expected <control.waypoint/>, or a model that "
+               "flies: hummingbird");
+  EXPECT_EQ(checked("hummingbird").exit, 0);
 }
 
 TEST(FirstHour, WhatComesAfterTheEnd) {

@@ -179,6 +179,9 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "differs");
   EXPECT_EQ(failing(with("tx = \"robot\"", "tx = phone")),
             "m.map:6: \"tx\" is a column of names; expected tx = name phone");
+  EXPECT_EQ(failing(with("tx = \"robot\"", "tx = robot1")),
+            "m.map:6: \"tx\" is a column of names, and " + std::filesystem::path(file).string() +
+                " has no column robot1; expected tx = \"robot1\", the same name in all rows");
   EXPECT_EQ(failing(with("tx = \"robot\"", "tx = \"phone\"")),
             "m.map:6: \"phone\" in quotes is the same name in all rows, and " + std::filesystem::path(file).string() +
                 " has a column phone, with names such as \"p\"; expected tx = name phone, or another name");

@@ -59,7 +59,7 @@ TEST(Waypoint, PlacesBelowTheGroundAreWarnedOf) {
   const auto warnings = [](const std::string& path) {
     Folder folder;
     Simulation run = world_of(folder,
-                              "<robot name=\"r\" at=\"0 0 0\"/><test.turner/>"
+                              "<robot name=\"r\" model=\"hummingbird\" at=\"0 0 0\"/><test.turner/>"
                               "<control.path3d robot=\"r\" path=\"path.csv\"/>",
                               {{"path.csv", path}});
     run.step();
