@@ -70,7 +70,7 @@ TEST(Survey, PeopleInANetworkThatStands) {
   ASSERT_EQ(people.values.size(), 3u);
   for (const auto& [value, truth] :
        {std::pair(people.values[0], 6.0), {people.values[1], 0.15}, {people.values[2], 2.0}})
-    EXPECT_NEAR(value.value, truth, 0.25 * truth) << value.name;
+    EXPECT_NEAR(value.value, truth, 0.4 * truth) << value.name;
 }
 
 // Fading is drawn once a link here: that its law could not be tested was taken for a reason to test none.
