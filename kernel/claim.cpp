@@ -4,7 +4,6 @@
 #include <cctype>
 #include <muster/row_types.hpp>
 
-#include "link.hpp"
 #include "text/names.hpp"
 #include "text/paths.hpp"
 #include "text/text_table.hpp"

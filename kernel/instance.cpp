@@ -230,4 +230,9 @@ bool Instance::step(const muster_tick& now) noexcept {
   return fine && error_.empty();
 }
 
+const char* phase_name(uint32_t phase) {
+  static const char* names[] = {"no phase", "CONTROL", "ACTUATE", "PHYSICS", "RADIO", "NETWORK", "SENSE", "OBSERVE"};
+  return names[phase <= MUSTER_OBSERVE ? phase : 0];
+}
+
 }  // namespace muster

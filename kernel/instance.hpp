@@ -176,4 +176,6 @@ class Instance {
   const Set* asked_ = nullptr;  // the set of its last query in this step
 };
 
+const char* phase_name(uint32_t phase);
+
 }  // namespace muster

@@ -4,12 +4,11 @@
 
 #include <muster/plugin.h>
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "link.hpp"
 #include "world_file/params.hpp"
+#include "world_file/world.hpp"
 
 namespace muster {
 
@@ -17,7 +16,7 @@ namespace muster {
 void check_together(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
                     const World& world, const Warn& warn);
 
-// Warnings of thresholds of readers beyond which a table has no values: its writer's clip, of the same name, is nearer.
-std::vector<std::string> beyond_clips(const std::map<std::string, Claimed>& claimed, const World& world);
+// True where the run sets the attribute "instance/attribute" later.
+bool is_set_later(const World& world, const std::string& path);
 
 }  // namespace muster

@@ -29,8 +29,6 @@ struct Batch {
 // Computes the total of what was added in this tick.
 void add_up(const Sum& sum, uint64_t tick);
 
-const char* phase_name(uint32_t phase);
-
 // One quantity, "set/*/quantity", with all its claims.
 struct Claimed {
   struct By {

@@ -23,11 +23,6 @@ bool collide(const Claim& a, const Claim& b) {
 
 }  // namespace
 
-const char* phase_name(uint32_t phase) {
-  static const char* names[] = {"no phase", "CONTROL", "ACTUATE", "PHYSICS", "RADIO", "NETWORK", "SENSE", "OBSERVE"};
-  return names[phase <= MUSTER_OBSERVE ? phase : 0];
-}
-
 bool Linker::is_given(const std::string& logical) const {
   const std::string table = logical.substr(0, logical.find('/')) + logical.substr(logical.rfind('/'));
   for (const auto& element : standard_.elements) {

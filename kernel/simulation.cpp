@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "carriers.hpp"
-#include "instance_doubts.hpp"
+#include "clip_doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
