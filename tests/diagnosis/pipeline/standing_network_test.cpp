@@ -8,6 +8,7 @@
 
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
+#include "diagnosis/report/words.hpp"
 #include "muster/random.hpp"
 #include "tests/diagnosis/pipeline/flat.hpp"
 #include "text/number.hpp"
@@ -68,6 +69,8 @@ TEST(Survey, PeopleInANetworkThatStands) {
   ASSERT_NE(named, found.causes.end()) << names_in_words(named_causes(found));
   const CauseEstimate& people = *named;
   EXPECT_EQ(people.row, "");
+  EXPECT_NE(report::sentence(people).find("between all radios and each other"), std::string::npos)
+      << report::sentence(people);
   ASSERT_EQ(people.values.size(), 3u);
   for (const auto& [value, truth] :
        {std::pair(people.values[0], 6.0), {people.values[1], 0.15}, {people.values[2], 2.0}})
