@@ -1,5 +1,5 @@
-// Upper tails of F and Student distributions, for tests and intervals. Boost's templates take seconds to compile: here
-// they do so once.
+// Upper tails of F, Student and Poisson distributions, for tests and intervals. Boost's templates take seconds to
+// compile: here they do so once.
 #pragma once
 
 namespace muster::diagnosis {
@@ -8,5 +8,7 @@ namespace muster::diagnosis {
 double fisher_tail(double numerator_freedom, double denominator_freedom, double x);
 // Probability that a Student-distributed value exceeds x.
 double student_tail(double freedom, double x);
+// Probability that a count of this mean (> 0), distributed after Poisson, is `count` (>= 1) or more.
+double poisson_tail(double mean, int count);
 
 }  // namespace muster::diagnosis

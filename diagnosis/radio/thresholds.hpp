@@ -195,9 +195,9 @@ inline constexpr double disk_worth = 0.5;
 
 // nats; from which a reading needs a law that adds draws; chosen; none
 inline constexpr double needs_law = 0.3;
-// pairs; of successive readings that need it, beyond four standard deviations, as a few may; chosen;
+// probability; of as many pairs of successive readings that need it by chance; chosen;
 // Survey.ReadingsThatAreOffInRunsAreNoOutliers
-inline constexpr double chance_pairs = 3;
+inline constexpr double pairs_alpha = 1e-4;
 // m; within which two readings of a link are of one place; chosen; none
 inline constexpr double repeats_within = 1e-3;
 // share; of readings that repeat a place where a network stands; chosen; Survey.OutliersInANetworkThatStands

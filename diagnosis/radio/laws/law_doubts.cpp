@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "diagnosis/calibration/distributions.hpp"
 #include "diagnosis/radio/laws/scatter_by_level.hpp"
 #include "diagnosis/radio/laws/testable_readings.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -42,7 +43,7 @@ struct Successive {
   int pairs = 0;
   double by_chance = 0;
 
-  bool in_runs() const { return pairs - by_chance > 4 * std::sqrt(by_chance) + thresholds::chance_pairs; }
+  bool in_runs() const { return pairs > 0 && poisson_tail(by_chance, pairs) < thresholds::pairs_alpha; }
 };
 
 Successive successive(const LawSources& s, const VectorXd& residual, const LawTest& law) {

@@ -1,10 +1,11 @@
-// The two minimisers against a closed form, null directions, and tests of missing readings.
+// The two minimisers against a closed form, null directions, tests of missing readings, and tails of counts.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
 #include <cmath>
 #include <random>
 
+#include "diagnosis/calibration/distributions.hpp"
 #include "diagnosis/calibration/identifiability.hpp"
 #include "diagnosis/calibration/least_squares.hpp"
 #include "diagnosis/calibration/missing_data.hpp"
@@ -206,6 +207,17 @@ TEST(ErrorModels, OutliveShapesThatAreNoCovariance) {
   const double variance = errors.of_sums(constant)(0, 0);
   EXPECT_TRUE(std::isfinite(variance));
   EXPECT_GT(variance, 0);
+}
+
+TEST(PoissonTail, IsWhatTheTermsOfTheSeriesLeave) {
+  for (const double mean : {0.05, 1.7, 25.0}) {
+    double left = 1, term = std::exp(-mean);
+    for (int count = 1; count < 40; ++count) {
+      left -= term;
+      term *= mean / count;
+      EXPECT_NEAR(poisson_tail(mean, count), left, 1e-12) << mean << ' ' << count;
+    }
+  }
 }
 
 }  // namespace
