@@ -11,12 +11,12 @@ namespace {
 // Doubles and quadruples a smooth's functions, if the Bayes information criterion improves by more than 3 nats.
 ScoredCandidate grown(const ModelState& state, const WhitenedModel& model, ScoredCandidate lead) {
   const Candidate& c = lead.candidate();
-  if (!c.design.wider) return lead;
-  for (const int times : {2, 4}) {
-    Eigen::MatrixXd columns = state.rows().mean(c.design.wider(times));
+  for (const Eigen::VectorXd& theta : c.design.wider) {
+    Eigen::MatrixXd columns = state.columns_of(c, theta);
     const double gain = model.gain(columns);
     const double evidence = state.evidence(c, gain, columns.cols(), false);
     if (evidence <= lead.evidence + thresholds::grow_nats) break;
+    lead.theta = theta;
     lead.columns = std::move(columns);
     lead.gain = gain;
     lead.evidence = evidence;

@@ -40,15 +40,15 @@ struct CandidateDesign {
   std::vector<Eigen::VectorXd> grid;
   // Row means of the grid's columns, atom after atom, if already known. May be empty.
   std::shared_ptr<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> atoms;
-  // One row a reading, `width` columns. A function of theta alone.
+  // One row a reading, `width` columns; more for a theta of `wider`. A function of theta alone.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> columns;
   // The same at each row's middle reading, one row a row of the search: enough for a search over many thetas. Empty:
   // the columns' row means.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> sketch;
   // The same columns, cheaper for many thetas near this one. Empty: no cheaper version.
   std::function<std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>(const Eigen::VectorXd& theta)> near;
-  // Columns of a smooth with `times` as many functions; may be empty.
-  std::function<Eigen::MatrixXd(int times)> wider;
+  // Thetas of the same smooth with more functions, fewest first; may be empty.
+  std::vector<Eigen::VectorXd> wider;
 };
 
 // Continuous refinement of theta.

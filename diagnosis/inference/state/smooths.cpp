@@ -32,15 +32,20 @@ Eigen::MatrixXd harmonics_of(const Eigen::VectorXd& angle, int harmonics) {
 
 namespace {
 
-Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::MatrixXd(int)> wider, bool grows = true) {
+// `columns` gives `times` as many functions; theta is `times`.
+Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::MatrixXd(int times)> columns,
+                 bool grows = true) {
   Candidate c;
   c.id = "~" + covariates.front();
   c.kind = Kind::smooth;
   c.covariates = std::move(covariates);
-  c.design.width = static_cast<int>(wider(1).cols());
-  c.design.grid = {Eigen::VectorXd()};
-  c.design.columns = [wider](const Eigen::VectorXd&) { return wider(1); };
-  if (grows) c.design.wider = std::move(wider);
+  const auto times = [](int k) { return Eigen::VectorXd::Constant(1, k); };
+  c.design.width = static_cast<int>(columns(1).cols());
+  c.design.grid = {times(1)};
+  if (grows) c.design.wider = {times(2), times(4)};
+  c.design.columns = [columns = std::move(columns)](const Eigen::VectorXd& theta) {
+    return columns(static_cast<int>(theta[0]));
+  };
   return c;
 }
 

@@ -61,6 +61,27 @@ TEST(Compared, RefinedCandidateKeepsItsEarlierGainUnlessItsStrengthIsFixed) {
   }
 }
 
+// What varies with temperature faster than five functions follow: whoever asks for the columns again, at the readings
+// or at other rows, asks with theta, and is to get those that were chosen.
+TEST(Compared, SmoothThatGrewIsTheSameByItsTheta) {
+  const auto world = world_of(varied(71, 3000));
+  const Eigen::ArrayXd warm = world.temperature.array() - world.temperature.minCoeff();
+  const Eigen::VectorXd fast = (8 * M_PI * warm / warm.maxCoeff()).cos();
+  const Problem problem = problem_of(world, scaled_to(world, fast, 400), {});
+  ModelState state(problem, {});
+  const WhitenedModel model = state.whitened_model(state.design());
+  std::vector<ScoredCandidate> all = scored_candidates(state, model);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const ScoredCandidate& lead) { return lead.candidate().id != "~temperature"; }),
+            all.end());
+  ASSERT_EQ(all.size(), 1u);
+  const ScoredCandidate best = compared(state, model, all, {}, [](const Candidate&) { return true; }).front();
+  const CandidateDesign& design = best.candidate().design;
+  EXPECT_GT(best.columns.cols(), design.width);
+  EXPECT_EQ(best.columns, state.columns_of(best.candidate(), best.theta));
+  EXPECT_EQ(design.columns(best.theta).cols(), best.columns.cols());
+}
+
 // A chirp has two functions and a grid, a bend one function and a grid: each costs twice its gain by chance.
 TEST(Compared, ObservedColumnPrecedesTimeAtEqualGainBesideItsFunctions) {
   const auto world = world_of(varied(5, 900));

@@ -29,8 +29,10 @@ TEST(LinkSmooths, CoverEveryColumnFactorAndProduct) {
     EXPECT_EQ(columns.cols(), c.design.width) << c.id;
     EXPECT_TRUE(columns.allFinite()) << c.id;
     EXPECT_GT((columns.rowwise() - columns.colwise().mean()).norm(), 1e-3) << c.id;
-    if (c.design.wider) {
-      EXPECT_EQ(c.design.wider(2).cols(), 2 * c.design.width) << c.id;
+    for (const Eigen::VectorXd& theta : c.design.wider) {
+      const Eigen::MatrixXd more = c.design.columns(theta);
+      EXPECT_EQ(more.cols(), theta[0] * c.design.width) << c.id;
+      EXPECT_EQ(more.rows(), 400) << c.id;
     }
   }
   for (const char* id : {"~logd", "~bearing", "~heading", "~txbearing", "~position", "~time", "~time_per_tx",
