@@ -32,7 +32,7 @@ Eigen::MatrixXd harmonics_of(const Eigen::VectorXd& angle, int harmonics) {
 
 namespace {
 
-// `columns` gives `times` as many functions; theta is `times`.
+// `columns` gives `times` as many functions. Theta is empty, or `times` where they are more.
 Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::MatrixXd(int times)> columns,
                  bool grows = true) {
   Candidate c;
@@ -41,10 +41,10 @@ Candidate smooth(std::vector<std::string> covariates, std::function<Eigen::Matri
   c.covariates = std::move(covariates);
   const auto times = [](int k) { return Eigen::VectorXd::Constant(1, k); };
   c.design.width = static_cast<int>(columns(1).cols());
-  c.design.grid = {times(1)};
+  c.design.grid = {Eigen::VectorXd()};
   if (grows) c.design.wider = {times(2), times(4)};
   c.design.columns = [columns = std::move(columns)](const Eigen::VectorXd& theta) {
-    return columns(static_cast<int>(theta[0]));
+    return columns(theta.size() == 0 ? 1 : static_cast<int>(theta[0]));
   };
   return c;
 }
