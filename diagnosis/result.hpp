@@ -151,6 +151,7 @@ struct Diagnosis {
   // What lowers the error at left-out places most comes first, laws of readings after that, suspected causes last.
   std::vector<CauseEstimate> causes;
   std::vector<Unexplained> unexplained;
+  std::vector<Unexplained> of_people;             // effects of time that those who walk about account for
   std::vector<std::string> searched, not_tested;  // causes; those not tested with the reason
   std::vector<std::string> notes;
   std::vector<AddedRadio> added_radios;

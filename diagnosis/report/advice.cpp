@@ -41,13 +41,14 @@ std::vector<Question> open_questions(const Diagnosis& d) {
 
 std::string name_of_step(const Diagnosis& d, std::size_t k) {
   if (k == 0) return "the world, fitted";
-  // Accepted causes and unexplained effects, in one order of strength.
+  // Accepted causes and effects that have none, in one order of strength.
   std::vector<std::pair<double, std::string>> steps;
   for (const CauseEstimate& c : d.causes) {
     if (confidence_of(c) != Confidence::set_aside && !c.sought_as.empty())
       steps.emplace_back(-c.lambda, short_name(c.id));
   }
   for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
+  for (const auto& u : d.of_people) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (people)");
   std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const CauseEstimate& c : d.causes) {
     if (c.put_right_first) steps.insert(steps.begin(), {0, short_name(c.id)});

@@ -143,11 +143,24 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, std::string 
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
 
+// At any moment people are on the way of more or fewer of the links: all readings together then follow time, which is
+// nothing else that is wrong.
+void leave_time_to_people(Diagnosis& found) {
+  const auto of_people = std::stable_partition(found.unexplained.begin(), found.unexplained.end(),
+                                               [](const Unexplained& u) { return !u.changes_in_time(); });
+  if (of_people == found.unexplained.end()) return;
+  found.notes.push_back(
+      "readings follow time beyond chance, as people who walk about make them do: nothing else is named for it");
+  found.of_people.assign(of_people, found.unexplained.end());
+  found.unexplained.erase(of_people, found.unexplained.end());
+}
+
 }  // namespace
 
 void add_laws(const LawSources& s, Diagnosis& found) {
   const VectorXd residual = residual_of(s, found);
   const Crossed crossed = add_blockage(s, residual, found);
+  if (crossed.all) leave_time_to_people(found);
   add_laws_of_readings(s, without_second_twins(s.readings, s.state.rows(), without_link(s, crossed.link, residual)),
                        crossed.all ? "not testable: people who cross the links change readings, too" : "", found);
 }

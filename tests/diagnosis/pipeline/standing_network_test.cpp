@@ -64,10 +64,10 @@ Diagnosis diagnosed(const std::string& cause) {
 
 TEST(Survey, PeopleInANetworkThatStands) {
   const Diagnosis found = diagnosed(R"(<effect.people loss="6" share="0.15" duration="2"/>)");
-  const auto named =
-      std::find_if(found.causes.begin(), found.causes.end(), [](const auto& c) { return c.id == "effect.people"; });
-  ASSERT_NE(named, found.causes.end()) << names_in_words(named_causes(found));
-  const CauseEstimate& people = *named;
+  ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
+  EXPECT_TRUE(found.unexplained.empty());  // but by these people: see of_people
+  const CauseEstimate& people = found.causes[0];
+  EXPECT_EQ(people.id, "effect.people");
   EXPECT_EQ(people.row, "");
   EXPECT_NE(report::sentence(people).find("between all radios and each other"), std::string::npos)
       << report::sentence(people);
