@@ -147,7 +147,10 @@ std::optional<double> LinkModel::frequency() const {
   for (const auto& instance : simulation().instances()) {
     const muster_plugin& plugin = instance->plugin();
     const int at = plugin.phase == MUSTER_RADIO ? instance->find_param("frequency") : -1;
-    if (at >= 0 && std::string_view(plugin.params[at].unit) == "Hz")
+    const auto& given = instance->declared().attributes;
+    const bool is_given =
+        std::any_of(given.begin(), given.end(), [](const XmlAttribute& a) { return a.name == "frequency"; });
+    if (at >= 0 && is_given && std::string_view(plugin.params[at].unit) == "Hz")
       return instance->params()[static_cast<std::size_t>(at)];
   }
   return {};

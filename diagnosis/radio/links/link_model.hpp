@@ -33,7 +33,7 @@ class LinkModel : public MeasuredWorld {
   std::string radio_name(int radio) const;
   // Radios of the readings that the world lacks and that were added to it; no cause concerns them.
   std::vector<std::string> added_radios() const;
-  // Carrier of the channel, Hz; nothing if no term of the world has one.
+  // Carrier of the channel, Hz; nothing if the world writes none: the default of a term says nothing of the data.
   std::optional<double> frequency() const;
   // The first end of a radio in the data; nothing for a radio without a reading.
   std::optional<End> first_end(const std::string& radio) const;
