@@ -105,7 +105,7 @@ std::string family_of(const std::vector<fs::path>& skeleton) {
 std::string without_kind(const std::string& name, const std::string& family, const std::string& kind) {
   if (family.empty()) return "";
   for (const std::string& begin : {family + '.', family + '_', family + '-', kind + '.'}) {
-    const std::string rest = nearest_plugin_name(name.substr(std::min(begin.size(), name.size())));
+    std::string rest = nearest_plugin_name(name.substr(std::min(begin.size(), name.size())));
     if (name.starts_with(begin) && !rest.empty()) return rest;
   }
   return "";

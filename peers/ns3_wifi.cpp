@@ -37,6 +37,7 @@ Counts ns3_wifi(const Task& task, unsigned mbit) {
   result.cpu = run_ns3(task, [&](uint32_t i) {
     devices.Get(i)->Send(ns3::Create<ns3::Packet>(task.payload), devices.Get(i)->GetBroadcast(), 0x88b5);
   });
+  counts = nullptr;
   return result;
 }
 

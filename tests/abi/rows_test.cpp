@@ -24,6 +24,7 @@ struct Named {
   static const char* columns;  // not known to the compiler
   double x;
 };
+const char* Named::columns = "x";
 
 TEST(RowTypes, HaveOneDoubleForEachColumn) {
   EXPECT_EQ(detail::column_count("v[m/s] w[rad/s]"), 2u);

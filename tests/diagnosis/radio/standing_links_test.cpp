@@ -47,7 +47,10 @@ Eigen::VectorXd levels(const LinkReadings& r, uint64_t seed, const Off& of) {
   return result;
 }
 
-uint64_t pair(int a, int b) { return static_cast<uint64_t>(nodes * std::min(a, b) + std::max(a, b)); }
+uint64_t pair(int a, int b) {
+  const auto [low, high] = std::minmax({a, b});
+  return uint64_t{nodes} * static_cast<uint64_t>(low) + static_cast<uint64_t>(high);
+}
 
 // As plugin effect.people draws them: windows of 2 s, of which a share is blocked, both ways alike.
 Eigen::VectorXd crossed(const LinkReadings& r, uint64_t seed, double loss, double share) {
