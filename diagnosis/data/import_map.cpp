@@ -68,7 +68,12 @@ NumberRule number_rule(std::string text, const Place& place) {
     if (at == text.npos) continue;
     if (text.back() == ')' && text.find('(') < at && text.rfind("log10(", 0) != 0)
       throw invalid(place, quote(text) + " has parentheses; expected SCALE*COLUMN + OFFSET, such as 0.01*x_cm + 0.05");
-    rule.offset = number_of(trimmed(text.substr(at + 3)), place) * (sign[1] == '-' ? -1 : 1);
+    const std::string second = trimmed(text.substr(at + 3));
+    if (!parse_real(second) && (second.find('*') != text.npos || std::isalpha(static_cast<unsigned char>(second[0]))))
+      throw invalid(place, quote(second) +
+                               " is no number, and a rule takes one column, SCALE*COLUMN + OFFSET; expected "
+                               "one of the two columns, or one that has both in it (of a stamp: t[s] = time COLUMN)");
+    rule.offset = number_of(second, place) * (sign[1] == '-' ? -1 : 1);
     text = trimmed(text.substr(0, at));
     break;
   }
