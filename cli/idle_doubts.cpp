@@ -106,8 +106,8 @@ std::vector<std::string> idle_notes(const Simulation& run) {
     const Instance& instance = *each;
     const std::string model = choice_of(instance, "model");
     if (listed.walls > 0 && is_plugin(instance, "radio.multiwall") && model != "multi_wall")
-      result.push_back(instance.place().text() + ": model=" + quote(model) + " counts no walls: the world's " +
-                       std::to_string(listed.walls) + " cost links nothing; model=\"multi_wall\" counts them");
+      result.push_back(instance.place().text() + ": model=" + quote(model) + " counts no walls, so that the world's (" +
+                       std::to_string(listed.walls) + ") cost links nothing; model=\"multi_wall\" counts them");
     const InstanceDeclaration& declared = instance.declared();
     if (is_plugin(instance, "sensors.gps") && !declared.attribute("latitude") && !declared.attribute("longitude"))
       result.push_back(named(instance) +

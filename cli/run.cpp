@@ -200,6 +200,8 @@ World asked_world(RunWords& words) {
     throw Error(Exit::invalid_input, "--port, --address and --token need --view beside them");
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
+  if (!words.log.plot.empty() && words.expected)
+    throw Error(Exit::invalid_input, "--plot shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
   add_plotted(words.log, words.out, world.records);
   if (!words.swap.instance.empty()) {

@@ -65,7 +65,8 @@ std::string at_once(const Way& way) {
   const XmlAttribute* given = way.instance->declared().attribute("tolerance");
   if (!given || longest == 0 || !(longest <= tolerance)) return "";
   return given->value_place.text() + ": attribute \"tolerance\": " + print_real(tolerance) +
-         " m is more than the way to each way point, " + std::string("at most ") + print_real(longest) +
+         " m is more than the way to each way point, " + std::string("at most ") +
+         print_real(std::round(longest * 100) / 100) +
          " m, so that all count as reached at the start; is this centimetres? " + print_real(tolerance) + " cm are " +
          print_real(tolerance / 100) + " m";
 }

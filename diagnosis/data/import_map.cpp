@@ -156,7 +156,11 @@ class Reader {
  private:
   void read_rule(const std::string& line) {
     const std::size_t equals = line.find('=');
-    if (equals == line.npos) throw invalid(place_, quote(line) + " has no '='; expected COLUMN[UNIT] = RULE");
+    if (equals == line.npos)
+      throw invalid(place_, quote(line) + " has no '='; expected COLUMN[UNIT] = RULE" +
+                                (line.find_first_of(",;\t") != line.npos
+                                     ? "; is this the table? expected muster import TABLE --map MAP"
+                                     : ""));
     const std::string left = trimmed(line.substr(0, equals)), right = trimmed(line.substr(equals + 1));
     const auto words = words_of(left);
     if (words.size() == 2 && words[0] == "for") return read_variable(words[1], right);
@@ -165,6 +169,9 @@ class Reader {
     if (left == "file name") return read_file_name(right);
     if (read_shape(left, right)) return;
     if (left == "origin") return read_origin(right);
+    if (left == "none")
+      throw invalid(place_, "none names no column; expected none COLUMN = " + right +
+                                ", the column of the log in which that means no value");
     if (words.size() != 1)
       throw invalid(place_, quote(left) + " is no column; expected name or name[unit], for, table, none or file name");
     read_column(left, right);

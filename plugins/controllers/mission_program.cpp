@@ -187,7 +187,8 @@ class Compiler {
     repeat(element, [&] {
       for (const auto& place : element.children) {
         if (place.name != "place")
-          refuse(place.place, "<" + place.name + "> is no element of <patrol>; expected <place at=\"x y\"/>");
+          refuse(place.place, "<" + place.name + "> is no element of <patrol>; expected <place at=\"x y\"/>" +
+                                  (place.name == "on" ? ", and <on> beside <patrol>, in <mission>" : ""));
         go_to(place, {"at", "heading"});
         program_.code.back().number = number(element, "within", 0.1, 1e-3, far);
         program_.code.back().patience = number(element, "patience", 0, 1e-3, long_time);

@@ -129,7 +129,8 @@ TEST_F(Table, RefusesBadHeaders) {
             "d.csv:1:9: column \"t\" stands twice; the first is column 1 of the header; expected one of the two, or "
             "another name for it");
   const std::string expected = " is not a column; expected name or name[unit], without spaces around it";
-  for (const std::string label : {"[m]", "b[", "b[]", "b]", "b[m", "b[m]x", "b[[m]]", " b", "b ", "b [m]", "b[m]]"}) {
+  EXPECT_EQ(error_in("b [m],c\n"), "d.csv:1:1: \"b [m]\"" + expected + "; did you mean \"b[m]\"?");
+  for (const std::string label : {"[m]", "b[", "b[]", "b]", "b[m", "b[m]x", "b[[m]]", " b", "b ", "b[m]]"}) {
     EXPECT_EQ(error_in("a," + label + ",c\n"), "d.csv:1:3: \"" + label + "\"" + expected);
   }
 }
