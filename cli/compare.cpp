@@ -45,7 +45,8 @@ Tolerances tolerances_of(const std::vector<std::string>& words) {
     if (equals == std::string::npos)
       throw Error(Exit::invalid_input,
                   "--within " + quote(word) + ": expected QUANTITY=TOLERANCE, such as pose/distance=0.05");
-    const double tolerance = real_of(word.substr(equals + 1), "--within");
+    const double tolerance =
+        real_of(word.substr(equals + 1), "--within", word.substr(0, equals).ends_with("distance") ? "m" : "");
     if (tolerance < 0) throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected a tolerance from 0");
     result[word.substr(0, equals)] = tolerance;
   }

@@ -86,7 +86,7 @@ std::string meant_quantity(const SetDeclaration& set, const std::string& word) {
     if ((' ' + std::string(each.also) + ' ').find(' ' + word + ' ') != std::string::npos) return each.name;
   }
   for (const auto& each : set.quantities) {
-    if (!word.empty() && std::string(each.name).starts_with(word)) return each.name;
+    if (!word.empty() && std::string(each.name).rfind(word, 0) == 0) return each.name;
   }
   return "";
 }
