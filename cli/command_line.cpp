@@ -139,8 +139,9 @@ std::string as_attribute(const CLI::App& app, const std::vector<std::string>& wo
     return !word.starts_with("--") && word.find('=') == word.npos;
   });
   if (value.empty()) value = given == values.end() ? "VALUE" : *given;
-  if (name == "world" && app.get_option_no_throw("world"))
-    return "the world stands without an option: muster " + app.get_name() + ' ' + value;
+  const CLI::Option* world = name == "world" ? app.get_option_no_throw("world") : nullptr;
+  if (world && !world->results().empty()) value = world->results()[0];  // what stands behind the option, taken as it
+  if (world) return "the world stands without an option: muster " + app.get_name() + ' ' + value;
   return (attributes ? "attributes of the new plugin are words without dashes: "
                      : "a parameter of a plugin or of the world is --set INSTANCE/") +
          name + '=' + value;

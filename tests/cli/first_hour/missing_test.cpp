@@ -50,7 +50,7 @@ TEST(FirstHour, AStageBringsWhatItIsAStageOf) {
 TEST(FirstHour, AGoalThatNobodyGives) {
   expect_refused(rover + "<physics.planar/>\n<control.goal2d robot=\"rover\"/>",
                  "world.xml:4:1: control.goal2d (control.goal2d): reads \"robot/rover/goal2d\", which nobody writes; "
-                 "expected a plugin of your own that does (muster new controller NAME begins one)");
+                 "expected a plugin that does, such as <control.mission robot=\"...\" mission=\"...\"/>");
 }
 
 TEST(FirstHour, TwoBackendsOfPhysics) {
