@@ -79,8 +79,9 @@ std::vector<std::string> idle_doubts(const Simulation& run) {
   const Listed listed = listed_in(run);
   const double until = run.world().until();
   const auto& all = run.instances();
-  const bool has_data =
-      std::any_of(all.begin(), all.end(), [](const auto& each) { return is_plugin(*each, "data.links"); });
+  // Where nobody drives or sends, a world is of measured data, whose times its own length does not bound.
+  const bool is_run =
+      std::any_of(all.begin(), all.end(), [](const auto& each) { return each->phase() == MUSTER_CONTROL; });
   for (const auto& each : all) {
     const Instance& instance = *each;
     std::string doubt;
@@ -93,7 +94,7 @@ std::vector<std::string> idle_doubts(const Simulation& run) {
               (listed.radios == 1 ? "one radio" : "two radios") +
               ", so that it has no effect; expected a third radio or robot, or no <radio.bodies>";
     if (listed.is_whole && is_plugin(instance, "sensors.range")) doubt = without_peers(instance, listed);
-    if (until > 0 && !has_data && doubt.empty()) doubt = too_late(instance, until);
+    if (until > 0 && is_run && doubt.empty()) doubt = too_late(instance, until);
     if (!doubt.empty()) result.push_back(doubt);
   }
   return result;

@@ -111,6 +111,7 @@ TEST(Idle, WhatBeginsAfterTheEnd) {
       told(radio + "<radio.multiwall/><effect.step at=\"60\" size=\"-5\"/>"),
       "warning: world.xml:3:36: attribute \"at\": 60 s, and the run ends at 1 s, so that <effect.step> never acts; "
       "expected a time below 1 s, or a longer run (until)\n");
+  EXPECT_EQ(told(base + "<radio.multiwall/><effect.step at=\"60\" size=\"-5\"/>"), "") << "a world of measured data";
   EXPECT_EQ(told(radio + "<radio.multiwall/><effect.step at=\"0.5\" size=\"-5\"/>"), "");
 }
 
