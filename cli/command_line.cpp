@@ -109,7 +109,8 @@ std::string too_many(const CLI::App& app, const std::string& word) {
 
 // Behind the refusal of a number with a fraction where things are counted: what is counted.
 std::string counted(CLI::App& app, const std::string& refusal) {
-  if (refusal.find("is not an integer; ") == refusal.npos) return "";
+  if (refusal.find("is not an integer; ") == refusal.npos || refusal.find("follows the number") == refusal.npos)
+    return "";
   const CLI::Option* option = app.get_option_no_throw(refusal.substr(0, refusal.find(':')));
   return option && !option->get_description().empty() ? ": " + option->get_description() : "";
 }
