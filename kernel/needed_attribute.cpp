@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "text/number.hpp"
+#include "world_file/params.hpp"
 
 namespace muster {
 namespace {

@@ -5,11 +5,13 @@
 //   ; only without socket                  not beside that one
 #pragma once
 
+#include <muster/plugin.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "instance.hpp"
+#include "world_file/world.hpp"
 
 namespace muster {
 
