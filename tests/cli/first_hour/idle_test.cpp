@@ -157,6 +157,20 @@ TEST(Idle, AConditionWithoutAColumn) {
                "\"link/base/rover/rssi/rssi\"");
 }
 
+TEST(Idle, AWordForAllInThePlaceOfARow) {
+  const ProgramFolder folder;
+  const auto refused = [&](const std::string& to) {
+    folder.write("world.xml", world_of(base + rover + "<physics.simbody/><radio.multiwall/><network.ideal/>\n" +
+                                       "<control.beacon radio=\"base\" to=\"" + to + "\"/>"));
+    return folder.muster({"check", "world.xml"}).err;
+  };
+  const std::string begin = "muster: error: world.xml:2:34: no radio is called ",
+                    known = "; expected one of base, rover";
+  EXPECT_EQ(refused("all"),
+            begin + "\"all\"" + known + "; for that, leave \"to\" out (whom it speaks to; by default all)\n");
+  EXPECT_THAT(refused("qqqqqqqq"), testing::Not(HasSubstr("leave")));
+}
+
 TEST(Idle, OfTwoShadowingsTheOneBesideFadingIsTakenOut) {
   const std::string warning = told(radio + "<radio.multiwall/><radio.fading/><radio.gudmundson shadowing=\"4\"/>");
   EXPECT_THAT(warning,
