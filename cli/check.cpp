@@ -3,10 +3,12 @@
 
 #include <cstdlib>
 
+#include "idle_doubts.hpp"
 #include "kernel/record.hpp"
 #include "level_terms.hpp"
 #include "text/json.hpp"
 #include "verbs.hpp"
+#include "way_doubts.hpp"
 
 namespace muster::cli {
 namespace {
@@ -19,6 +21,7 @@ std::vector<std::string> notes_of(const Simulation& run) {
   for (const auto& event : run.events()) {
     if (event.message.starts_with(note)) result.push_back(event.message);
   }
+  for (const std::string& one : idle_notes(run)) result.push_back(note + one);
   return result;
 }
 
@@ -31,7 +34,8 @@ std::vector<std::string> warnings_of(const Simulation& run) {
     const bool is_warning = event.message.starts_with(prefix);
     if (is_warning || event.tick == 0) result.push_back(is_warning ? event.message : prefix + event.message);
   }
-  for (const std::string& term : level_doubts(run)) result.push_back(prefix + term);
+  for (const auto& doubts : {level_doubts(run), idle_doubts(run), way_doubts(run)})
+    for (const std::string& doubt : doubts) result.push_back(prefix + doubt);
   return result;
 }
 

@@ -107,6 +107,14 @@ std::string too_many(const CLI::App& app, const std::string& word) {
   return quote(word) + " is one word too many" + hint;
 }
 
+// Behind the refusal of a number with a fraction where things are counted: what is counted.
+std::string counted(CLI::App& app, const std::string& refusal) {
+  if (refusal.find("is not an integer; ") == refusal.npos || refusal.find("follows the number") == refusal.npos)
+    return "";
+  const CLI::Option* option = app.get_option_no_throw(refusal.substr(0, refusal.find(':')));
+  return option && !option->get_description().empty() ? ": " + option->get_description() : "";
+}
+
 // The option that is meant: by a word of others, or by its letters without the dashes, which all options share.
 std::string meant_option(const std::string& given, const std::vector<std::string>& valid) {
   if (const std::string same = synonym(given, valid); !same.empty()) return "; did you mean " + quote(same) + "?";
@@ -132,6 +140,9 @@ std::string as_attribute(const CLI::App& app, const std::vector<std::string>& wo
     return !word.starts_with("--") && word.find('=') == word.npos;
   });
   if (value.empty()) value = given == values.end() ? "VALUE" : *given;
+  const CLI::Option* world = name == "world" ? app.get_option_no_throw("world") : nullptr;
+  if (world && !world->results().empty()) value = world->results()[0];  // what stands behind the option, taken as it
+  if (world) return "the world stands without an option: muster " + app.get_name() + ' ' + value;
   return (attributes ? "attributes of the new plugin are words without dashes: "
                      : "a parameter of a plugin or of the world is --set INSTANCE/") +
          name + '=' + value;
@@ -297,7 +308,7 @@ void CommandLine::parse(const Arguments& arguments) {
     }
     refuse(once == what.npos ? what : what.substr(0, once) + " is given more than once; expected one value");
   } catch (const CLI::ParseError& e) {
-    refuse(e.what());
+    refuse(e.what() + counted(*app_, e.what()));
   }
   check_effects();
 }

@@ -45,7 +45,8 @@ Tolerances tolerances_of(const std::vector<std::string>& words) {
     if (equals == std::string::npos)
       throw Error(Exit::invalid_input,
                   "--within " + quote(word) + ": expected QUANTITY=TOLERANCE, such as pose/distance=0.05");
-    const double tolerance = real_of(word.substr(equals + 1), "--within");
+    const double tolerance =
+        real_of(word.substr(equals + 1), "--within", word.substr(0, equals).ends_with("distance") ? "m" : "");
     if (tolerance < 0) throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected a tolerance from 0");
     result[word.substr(0, equals)] = tolerance;
   }
@@ -112,6 +113,7 @@ class Comparison {
   void add_other(const std::string& word) {
     const auto wanted = exchange_in(word);
     if (!wanted) refuse_plugin(word);
+    if (wanted) refuse_comma(*wanted);
     if (wanted) refuse_attribute(*wanted, word);
     World world = world_of(wanted ? words_.world : word, words_);
     if (wanted) exchange(world, *wanted, instance_names(*runs_[0].run), "muster compare");
@@ -140,6 +142,18 @@ class Comparison {
                       (dot == word.npos ? word + "=PLUGIN, the plugin that takes its place"
                                         : "INSTANCE=PLUGIN, such as " + instance.name + '=' + word));
     }
+  }
+
+  // "physics=physics.planar,acceleration=4": a colon is meant.
+  static void refuse_comma(const Exchange& wanted) {
+    const std::string& plugin = wanted.plugin;
+    const auto comma = plugin.find(',');
+    if (comma == plugin.npos) return;
+    std::string meant = plugin;
+    std::replace(meant.begin(), meant.end(), ',', ':');
+    throw Error(Exit::invalid_input, "muster compare: " + quote(plugin) + " is no plugin; did you mean " +
+                                         wanted.instance + '=' + meant +
+                                         "? attributes follow their plugin behind a colon");
   }
 
   // "step=0.002" behind "physics=physics.ode": an attribute follows its plugin behind a colon.
@@ -229,9 +243,12 @@ int run_compare(const Arguments& arguments) {
   if (!words.ladder && !words.measured.empty())
     throw Error(Exit::invalid_input, "muster compare: --measured is of the ladder; expected --ladder beside it");
   if (words.ladder && !(words.others.empty() && words.within.empty() && words.record.empty()))
-    throw Error(
-        Exit::invalid_input,
-        "muster compare --ladder: the rungs are what is compared; expected no other world, --within or --record");
+    throw Error(Exit::invalid_input,
+                "muster compare --ladder: takes the world alone, as its rungs are what is compared; "
+                "expected no " +
+                    (!words.others.empty()   ? words.others[0]
+                     : !words.within.empty() ? "--within"
+                                             : std::string("--record")));
   if (!words.ladder && !words.metrics.empty())
     throw Error(Exit::invalid_input, "muster compare: --metric is of the ladder; expected --ladder beside it");
   if (words.ladder) return static_cast<int>(run_ladder(words));

@@ -63,6 +63,16 @@ std::string titles(const std::vector<const Instance*>& terms) {
   return result;
 }
 
+// radio.fading also has fading: who takes it out loses that.
+std::string remedy(const Instance& one, const Instance& other) {
+  for (const auto& [fading, beside] : {std::pair(&one, &other), {&other, &one}}) {
+    const bool is_alone = beside->declared().plugin != "radio.fading";
+    if (fading->declared().plugin == "radio.fading" && is_alone && shadows(*beside))
+      return "shadowing=\"0\" of " + fading->name() + ", or no " + beside->name();
+  }
+  return "one of the two";
+}
+
 }  // namespace
 
 std::vector<std::string> level_doubts(const Simulation& run) {
@@ -79,7 +89,8 @@ std::vector<std::string> level_doubts(const Simulation& run) {
                                                                   : nullptr;
       if (what)
         result.push_back(other.place().text() + ": " + title(other) + " and " + one.place().text() + ": " + title(one) +
-                         " both add " + what + " to link/*/level, which then counts twice; expected one of the two");
+                         " both add " + what + " to link/*/level, which then counts twice; expected " +
+                         remedy(one, other));
     }
   }
   if (!terms.empty() && std::all_of(terms.begin(), terms.end(), [](const Instance* t) { return is_beside(*t); }))

@@ -117,6 +117,10 @@ constexpr Habit habits[] = {{"view", "to watch a run", "muster run {} --view"},
                 fmt::format("there is no verb {}; {}: {} (muster --help lists the verbs)", quote(words[0]), habit.what,
                             fmt::format(fmt::runtime(habit.command), world)));
   }
+  if (std::filesystem::exists(words[0]))  // a world, whose verb was left out
+    throw Error(Exit::invalid_input, "there is no verb " + quote(words[0]) + ", which is a " +
+                                         (std::filesystem::is_directory(words[0]) ? "folder" : "file") +
+                                         "; did you mean muster run " + words[0] + "? muster --help lists the verbs");
   throw Error(Exit::invalid_input, "there is no verb " + quote(words[0]) + "; " + suggest(words[0], names));
 }
 

@@ -77,7 +77,7 @@ MapWords words_of(const Arguments& arguments) {
   line.option("--from", words.from, "radios that send; all that do not move, or else all");
   line.option("--at", at, "seconds after the start: robots stand where they are then").shows_default();
   line.option("--height", height, "of the receiver above the floor, in m").shows_default();
-  line.option("--cells", words.cells, "along the longer side").within(2, 2000).shows_default();
+  line.option("--cells", words.cells, "cells along the longer side").within(2, 2000).shows_default();
   line.option("--area", area, "X0 Y0 X1 Y1 in m; all walls and radios, with some room around them").takes(4);
   line.flag("--drawn", words.drawn, "with shadowing and fading, not received below the receiver's sensitivity");
   line.option("--out", words.out, "a folder for map.csv and the pictures").required();

@@ -99,6 +99,16 @@ void describe_element(const std::string& name, bool json, const std::vector<std:
     for (const auto& attribute : element.attributes) print_param(attribute.param, attribute.count);
     return;
   }
+  if (name.find('/') != name.npos)
+    throw Error(Exit::invalid_input,
+                "there is no plugin or element " + quote(name) +
+                    "; is this a table? muster graph WORLD lists those of a world, and who writes them");
+  for (const auto& folder : folders) {
+    if (std::filesystem::exists(folder / "models" / (name + ".urdf")))
+      throw Error(Exit::invalid_input, "there is no element " + quote(name) +
+                                           ", but a model: <robot model=" + quote(name) + "/>, described by " +
+                                           (folder / "models" / (name + ".urdf")).string());
+  }
   std::vector<std::string> family;     // plugins whose names begin so: "radio" may mean "radio.multiwall"
   std::vector<std::string> namesakes;  // or end so: "multiwall", or have that file: "radio_multiwall"
   std::string stem = name.ends_with(".so") ? name.substr(0, name.size() - 3) : name;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <muster/tables.hpp>
 
+#include "declared_rows.hpp"
 #include "diagnosis/radio/links/run_tables.hpp"
 #include "roadmap/plan.hpp"
 #include "roadmap/route.hpp"
@@ -76,24 +77,6 @@ RoadmapWords roadmap_words(const Arguments& arguments) {
     throw Error(Exit::invalid_input,
                 std::string(words.path.empty() ? "--from" : "--path") + " needs a goal; expected --to X Y beside it");
   return words;
-}
-
-// Rows of a table as the world file gives them; a run has them only where a plugin reads them.
-template <class Row>
-std::vector<Row> declared_rows(const World& world, const std::string& set, const std::string& quantity) {
-  std::vector<Row> result;
-  for (const RowDeclaration& row : world.rows) {
-    if (row.set != set) continue;
-    Row cells{};
-    for (const StoredValues& given : row.values) {
-      if (given.table != set + '/' + quantity) continue;
-      auto* first = reinterpret_cast<double*>(&cells);
-      given.store ? given.store(given.values.data(), first)
-                  : static_cast<void>(std::copy(given.values.begin(), given.values.end(), first));
-    }
-    result.push_back(cells);
-  }
-  return result;
 }
 
 std::vector<std::string> declared_names(const World& world, const std::string& set) {
@@ -199,9 +182,15 @@ std::vector<RobotsGoal> goals_of(const World& world) {
   return result;
 }
 
+constexpr double largest = 10;  // m, radius of a robot
+
 // What keeps robots from where they are to go.
 std::vector<std::string> roadmap_warnings(const World& world, const PlannedRobot& robot, const MadeRoadmap& made) {
   std::vector<std::string> result;
+  if (robot.radius > largest)
+    result.push_back((robot.is_of_world ? "robot " + quote(robot.name) + " has a radius of " : "--radius: ") +
+                     print_real(robot.radius) + " m, more than any robot; is this in millimetres? " +
+                     (robot.is_of_world ? "expected metres" : "expected --radius " + print_real(robot.radius / 1000)));
   const auto names = declared_names(world, "robot");
   const auto poses = declared_rows<Pose>(world, "robot", "pose");
   const auto goals = goals_of(world);
@@ -209,7 +198,7 @@ std::vector<std::string> roadmap_warnings(const World& world, const PlannedRobot
     if (robot.is_of_world && i != robot.row) continue;
     const rm::Point at{poses[i].x, poses[i].y};
     const std::string who = "robot " + quote(names[i]);
-    if (!made.obstacles.is_free(at))
+    if (!made.obstacles.is_free(at) && robot.radius <= largest)
       result.push_back(who + " stands in no free space, " + print_real(made.obstacles.clearance(at)) +
                        " m from a wall; expected at least " + print_real(made.obstacles.radius()) + " m on all sides");
     rm::Point from = at;
@@ -258,7 +247,6 @@ std::optional<rm::Route> wanted_way(const World& world, const PlannedRobot& robo
   }
   rm::Route way = rm::route(made.graph, made.obstacles, from, {words.to[0], words.to[1]});
   if (way.fault.empty()) return way;
-  constexpr double largest = 10;  // m, of a robot
   const bool is_large = made.obstacles.radius() > largest;
   const std::string large = is_large ? "; is the radius in millimetres? expected metres" : "";
   if (!words.path.empty()) throw Error(Exit::invalid_input, "--to: " + way.fault + large);

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "idle_doubts.hpp"
 #include "level_terms.hpp"
 #include "live_view.hpp"
 #include "pacing.hpp"
@@ -20,6 +21,7 @@
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
+#include "way_doubts.hpp"
 #include "written_files.hpp"
 
 namespace muster::cli {
@@ -189,6 +191,7 @@ void check_written(const RunWords& words) {
 // Throws Error.
 World asked_world(RunWords& words) {
   check_written(words);
+  words.may_log = true;
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
   if (!words.view && (words.view_at.is_paused || !words.view_at.origins.empty()))
     throw Error(Exit::invalid_input, "--paused and --origin need --view beside them");
@@ -197,6 +200,8 @@ World asked_world(RunWords& words) {
     throw Error(Exit::invalid_input, "--port, --address and --token need --view beside them");
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
+  if (!words.log.plot.empty() && words.expected)
+    throw Error(Exit::invalid_input, "--plot shows a run, and --expected runs no tick; expected one of them");
   World world = world_of(words.world, words);
   add_plotted(words.log, words.out, world.records);
   if (!words.swap.instance.empty()) {
@@ -227,7 +232,9 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   options.costs = words.cost;
   Simulation run(world, standard(), std::move(options));
   check_records(run);
-  for (const std::string& term : level_doubts(run)) fmt::print(stderr, "muster: warning: {}\n", term);
+  for (const auto& doubts : {level_doubts(run), idle_doubts(run), way_doubts(run)})
+    for (const std::string& doubt : doubts) fmt::print(stderr, "muster: warning: {}\n", doubt);
+  for (const std::string& one : idle_notes(run)) fmt::print(stderr, "muster: note: {}\n", one);
   if (!words.restore.empty()) restore(run, words.restore, words.seed.has_value());
   set_parameters(run, words.set);
   if (run.tick() > run.world().ticks)

@@ -90,7 +90,8 @@ World world_of(const std::string& path, const RunOptions& words) {
       throw Error(Exit::invalid_input, "--record takes one table each time; expected " + each);
   for (const auto& table : words.record) world.records.push_back({table, 1, {"--record"}});
   if (!words.record.empty() && words.out.empty() && !words.has_log)
-    throw Error(Exit::invalid_input, "--record needs --out, the folder to write to");
+    throw Error(Exit::invalid_input, "--record needs --out, the folder to write to" +
+                                         std::string(words.may_log ? ", or --mcap, a log" : ""));
   return world;
 }
 
@@ -147,6 +148,12 @@ void set_parameters(Simulation& run, const std::vector<std::string>& given) {
         comma != std::string::npos && one.find('=', comma) != std::string::npos)
       throw Error(Exit::invalid_input, "--set takes one parameter each time; expected " + once_each("--set", one));
     const std::string path = one.substr(0, equals);
+    if (const auto end = path.find_last_not_of(' '); end + 1 < path.size() && end != path.npos) {
+      const auto begin = one.find_first_not_of(' ', equals + 1);
+      throw Error(Exit::invalid_input, "--set " + quote(one) + " has blanks around '='; expected --set " +
+                                           path.substr(0, end + 1) + '=' +
+                                           (begin == one.npos ? "VALUE" : one.substr(begin)));
+    }
     if (!seen.insert(path).second)
       throw Error(Exit::invalid_input, "--set: " + path + " is given more than once; expected one value");
     set_parameter(run, {path, one.substr(equals + 1), {"--set"}, {"--set"}});
@@ -157,9 +164,14 @@ InstanceDeclaration instance_of(const std::string& name, const std::string& plug
                                 const std::vector<std::string>& attributes, const std::string& who) {
   const Place place{who};
   XmlElement element{plugin, place, {}, {}};
-  for (const auto& one : attributes) {
+  for (std::size_t i = 0; i < attributes.size(); ++i) {
+    const std::string& one = attributes[i];
     const auto equals = one.find('=');
-    if (equals == std::string::npos) throw invalid(place, quote(one) + " is no attribute; expected NAME=VALUE");
+    if (equals == std::string::npos) {
+      const bool has_value = i + 1 < attributes.size() && attributes[i + 1].find('=') == std::string::npos;
+      throw invalid(place, quote(one) + " is no attribute; expected NAME=VALUE" +
+                               (has_value ? "; did you mean " + one + '=' + attributes[i + 1] + "?" : ""));
+    }
     if (equals == 4 && one.starts_with("name"))
       throw invalid(place, "the attribute \"name\" cannot be given; the new plugin keeps the name " + quote(name));
     element.attributes.push_back({one.substr(0, equals), one.substr(equals + 1), place, place});

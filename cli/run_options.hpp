@@ -15,6 +15,7 @@ struct RunOptions {
   int workers = 1;
   std::optional<std::string> until, seed;
   bool json = false;
+  bool may_log = false;  // there is --mcap
   bool has_log = false;  // records go to a log, with or without `out`
 };
 

@@ -50,7 +50,8 @@ void exchange_plugin(World& world, const Variation& variation, const Word& word,
                      const std::vector<std::string>& instances) {
   if (std::find(instances.begin(), instances.end(), variation.path) == instances.end())
     throw invalid(variation.place, "no instance of " + world.file.string() + " is called " + quote(variation.path) +
-                                       "; " + suggest(variation.path, instances));
+                                       "; " + suggest(variation.path, instances) +
+                                       plugin_hint(variation.path, whose_plugin(world.instances, variation.path)));
   exchange(world, exchange_of(variation.path, word.text), instances, word.place.text());
 }
 

@@ -63,7 +63,11 @@ class Reader {
     const auto* body = world->FirstChildElement("body");
     if (!body) source_.fail(world->GetLineNum(), "<worldbody> has no <body>; expected that of the robot");
     if (const auto* second = body->NextSiblingElement("body")) {
-      source_.fail(second->GetLineNum(), "<worldbody> has a second <body>; a model is one robot: expected one <body>");
+      const char* name = second->Attribute("name");
+      source_.fail(second->GetLineNum(),
+                   "<worldbody> has a second <body>; a model is one robot: expected one <body>, and " +
+                       (name ? "'" + std::string(name) + "'" : std::string("the other")) +
+                       " as a <mesh> or a <robot> of its own in the world");
     }
     for (const auto* child = world->FirstChildElement(); child; child = child->NextSiblingElement()) {
       const std::string name = child->Name();

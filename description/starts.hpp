@@ -76,18 +76,19 @@ inline double deepest(const std::vector<Block>& a, const std::vector<Block>& b) 
   return result;
 }
 
-// A robot that starts in a wall, in another robot, or below the ground.
+// A robot that starts in a wall, in another robot, below the ground, or in the air without wings.
 struct Fault {
   std::size_t robot;
   std::string message;
 };
 
-// One for each robot that starts with its middle below the ground (z = 0), in a wall, or in a robot before it.
-// `pose_of(row)`, `robot_of(row)`: null for a robot that is not there; `name_of(set, row)`.
+// One for each robot that starts with its middle below the ground (z = 0), on wheels or legs far above it, in a wall,
+// or in a robot before it. `pose_of(row)`, `robot_of(row)`: null for a robot that is not there; `name_of(set, row)`.
 template <class PoseOf, class RobotOf, class NameOf>
 std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const RobotOf& robot_of, const NameOf& name_of,
                           const std::vector<Block>& walls) {
   constexpr double tolerance = 1e-3;  // [m] boxes around round shapes may be that deep in each other
+  constexpr double high = 0.1;        // [m] lower than that, a robot on wheels or legs settles
   constexpr double no_robot = 50;     // [m] of its middle: its description has been told of, and not where it starts
   std::vector<std::vector<Block>> blocks(robots);
   std::vector<double> reach(robots, 0);
@@ -105,6 +106,12 @@ std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const Robot
     blocks[i] = blocks_of(*robot, pose);
     for (const Block& b : blocks[i])
       reach[i] = std::max(reach[i], std::hypot(b.x - pose.x, b.y - pose.y) + std::hypot(b.half_length, b.half_width));
+    double foot = std::numeric_limits<double>::infinity();
+    for (const Block& b : blocks[i]) foot = std::min(foot, b.low);
+    if ((robot->drive || robot->legs) && !robot->quadrotor && foot > high && std::isfinite(foot))
+      result.push_back({i, "robot '" + std::string(name_of("robot", i)) + "' starts " + millimetres(foot) +
+                               " mm above the ground, and falls; expected a place (at) on it, z = " +
+                               (pose.z - foot < high / 10 ? "0" : millimetres(pose.z - foot) + " mm")});
     double lowest = 0, highest = -std::numeric_limits<double>::infinity();
     for (const Block& b : blocks[i]) lowest = std::min(lowest, b.low), highest = std::max(highest, b.high);
     if (lowest + highest < 0)

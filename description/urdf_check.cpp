@@ -224,7 +224,11 @@ std::string tag(const XMLElement& element) { return std::string("<") + element.N
 std::string required(const Source& source, const XMLElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
   if (!text || !*text) {
-    source.fail(element.GetLineNum(), std::string("<") + element.Name() + "> has no attribute '" + attribute + "'");
+    const std::string name = element.Name(), inside = element.GetText() ? element.GetText() : "";
+    const bool is_word = !inside.empty() && inside.find_first_of(" \t\r\n\"<") == inside.npos;
+    source.fail(element.GetLineNum(),
+                "<" + name + "> has no attribute '" + attribute + "'" +
+                    (is_word ? "; expected <" + name + ' ' + attribute + "=\"" + inside + "\"/>" : ""));
   }
   return text;
 }

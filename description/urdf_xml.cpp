@@ -143,7 +143,7 @@ void refuse_xacro(const Source& source, const XMLElement& element) {
 // Of a file with another root element than <robot>: one of those that <robot> has in it may stand alone.
 std::string other_root(const std::string& name) {
   if (name.empty()) return "is not URDF; expected <robot>";
-  if (name == "sdf") return "is SDF, not URDF; expected <robot>";
+  if (name == "sdf") return "is SDF, not URDF; expected <robot> with its <link> and <joint>: export the model as URDF";
   const std::vector<std::string> inside = {"muster", "sensor", "gazebo", "link", "joint", "transmission"};
   const bool is_inside = std::find(inside.begin(), inside.end(), name) != inside.end();
   return "<" + name + "> is the root element of this file, which is no URDF; expected <robot name=\"...\">" +

@@ -17,6 +17,15 @@ std::string one_word_too_many(const std::string& word, const Arguments& known, c
          (missing == known.end() ? "; expected options alone" : "; did you mean " + missing->first + ' ' + word + "?");
 }
 
+// Of an option of several values that has some: " behind the least: --rows 2000 2000".
+std::string too_few(const std::string& option, std::size_t given, const std::vector<std::string>& names,
+                    const std::vector<std::string>& values) {
+  if (given == 0) return "";
+  std::string words;
+  for (std::size_t i = 0; i < names.size(); ++i) words += ' ' + values[std::min(i, given - 1)];
+  return " behind " + names[given - 1] + ": " + option + words;
+}
+
 }  // namespace
 
 Arguments parsed(int argc, char** argv, const Arguments& known) {
@@ -37,7 +46,8 @@ Arguments parsed(int argc, char** argv, const Arguments& known) {
     }
     auto& values = result[option];
     for (std::size_t k = 0; k < spec->second.size(); ++k) {
-      if (++i >= argc) throw std::invalid_argument(option + " needs " + spec->second[k]);
+      if (++i >= argc || (k > 0 && known.contains(argv[i]) && *argv[i]))
+        throw std::invalid_argument(option + " needs " + spec->second[k] + too_few(option, k, spec->second, values));
       values.push_back(argv[i]);
     }
   }

@@ -197,7 +197,8 @@ void make_cases(const Arguments& arguments, const std::filesystem::path& out, bo
   const auto mix = arguments.find("--mix");
   if (mix != arguments.end() && mix->second[0] == "clean" && arguments.contains("--effects"))
     throw std::invalid_argument(
-        "--effects has no effect with --mix clean, whose cases hide none; expected one of the two");
+        "--effects has no effect with --mix clean, whose cases hide none; expected --mix one beside it, or no "
+        "--effects");
   const MakeOne make_one = generator == "drawn"   ? drawn(arguments, out)
                            : generator == "field" ? field(arguments, out)
                            : generator == "run"   ? simulated_runs(arguments, out)

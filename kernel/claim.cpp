@@ -137,24 +137,73 @@ const Quantity* standard_quantity(const Standard& standard, const TableName& nam
   return nullptr;
 }
 
+namespace {
+
+bool is_own(const Claim& claim, const Instance& instance) {
+  return claim.file || claim.name.set == "instance/" + instance.name();
+}
+
+// True for what no robot senses: others' own tables, and standard quantities of the world itself.
+bool is_truth(const Claim& claim, const Instance& instance, const Standard& standard) {
+  if (is_own(claim, instance)) return false;
+  const auto* quantity = standard_quantity(standard, claim.name);
+  return claim.name.set.compare(0, 9, "instance/") == 0 || (quantity && !quantity->sensed);
+}
+
+// True for a standard quantity that a controller writes and muster's own plugins obey: a robot's commands.
+bool is_command(const Claim& claim, const Standard& standard) {
+  const auto* quantity = standard_quantity(standard, claim.name);
+  const auto* set = standard_set(standard, claim.name.set);
+  return quantity && quantity->sensed && *quantity->user && set->kind == SetKind::live && claim.kind == MUSTER_WRITE;
+}
+
+// `expected read<Odometry>("robot/{robot}/odometry") in its place; of all: robot/command, robot/odometry, ...`
+std::string expected_sensed(const Claim& claim, const Standard& standard) {
+  std::string sensed;
+  for (const auto& set : standard.sets) {
+    for (const auto& q : set.quantities) {
+      if (q.sensed) sensed += (sensed.empty() ? "" : ", ") + std::string(set.name) + '/' + q.name;
+    }
+  }
+  const auto* quantity = standard_quantity(standard, claim.name);
+  return "a controller knows what its robot senses: expected " +
+         (quantity && *quantity->felt ? std::string("in its place ") + quantity->felt + "; or another of "
+                                      : "one of ") +
+         sensed;
+}
+
+// Refuses an instance of another phase that reads truth and writes a robot's command: it is a controller all the same.
+void check_disguise(const Claim& claim, const Instance& instance, const Standard& standard) {
+  const auto reads_truth = [&](const Claim& c) {
+    return c.kind == MUSTER_READ && (is_truth(c, instance, standard) || (!is_own(c, instance) && !c.name.part.empty()));
+  };
+  const auto& claims = instance.claims();
+  const Claim *truth = nullptr, *command = nullptr;
+  const auto look_at = [&](const Claim& c) {
+    if (!truth && reads_truth(c)) truth = &c;
+    if (!command && is_command(c, standard)) command = &c;
+  };
+  for (const Claim& each : claims) look_at(each);
+  look_at(claim);
+  if (!truth || !command) return;
+  throw instance.refused("claims " + quote(truth->name.text()) + ", which is truth, and writes " +
+                         quote(command->name.text()) + ", which makes it a controller, whatever its phase; " +
+                         expected_sensed(*truth, standard));
+}
+
+}  // namespace
+
 // Private tables are the instance's own memory. Quantities that are not standard are checked when the world is linked,
 // since the writer's claim decides.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around) {
-  if (instance.phase() != MUSTER_CONTROL || claim.file) return;
-  if (claim.name.set == "instance/" + instance.name()) return;
-  const auto* quantity = standard_quantity(*around.standard, claim.name);
+  if (instance.phase() != MUSTER_CONTROL) return check_disguise(claim, instance, *around.standard);
+  if (is_own(claim, instance)) return;
   const int robot = instance.bound_row();
   const std::string what = "claims " + quote(claim.name.text());
-  if (claim.name.set.compare(0, 9, "instance/") == 0 || (quantity && !quantity->sensed)) {
-    std::string sensed;
-    for (const auto& set : around.standard->sets) {
-      for (const auto& q : set.quantities) {
-        if (q.sensed) sensed += (sensed.empty() ? "" : ", ") + std::string(set.name) + '/' + q.name;
-      }
-    }
+  if (is_truth(claim, instance, *around.standard)) {
     const std::string meant = phase_of_kind(instance);
     throw instance.refused(what + ", which is truth; " +
-                           (meant.empty() ? "a controller knows what its robot senses: expected one of " + sensed
+                           (meant.empty() ? expected_sensed(claim, *around.standard)
                                           : "its source states phase = MUSTER_CONTROL, in which a plugin has what its "
                                             "robot senses and no more; expected phase = " +
                                                 meant));

@@ -86,6 +86,14 @@ int Instance::bound_row() const {
   return refers ? static_cast<int>(params_[static_cast<std::size_t>(param)]) : -1;
 }
 
+// Of an attribute that names one row: a word for each of them.
+static bool means_all(const std::string& row) {
+  for (const char* word : {"all", "any", "every", "everyone", "broadcast", "*"}) {
+    if (row == word) return true;
+  }
+  return false;
+}
+
 void Instance::check_attributes() {
   std::vector<std::string> valid = reserved_attributes;
   for (uint32_t i = 0; i < plugin_->param_count; ++i) {
@@ -101,11 +109,15 @@ void Instance::check_attributes() {
               declared_.plugin + " .../></swap>");
     if (param.kind == MUSTER_TEXT || param.kind == MUSTER_FILE) texts_[param.name] = param.text ? param.text : "";
   }
-  const FindRow find_row = [this](const std::string& set, const std::string& row, const Place& place) -> double {
+  const muster_param* asked = nullptr;
+  const FindRow find_row = [&](const std::string& set, const std::string& row, const Place& place) -> double {
     const Set* found = around_.board->find_set(set);
     if (!found || found->find(row) < 0)
       throw invalid(place, "no " + set + " is called " + quote(row) + "; " +
-                               (found && !found->names.empty() ? suggest(row, found->names) : "the world has none"));
+                               (found && !found->names.empty() ? suggest(row, found->names) : "the world has none") +
+                               (means_all(row) && asked && !(asked->flags & MUSTER_REQUIRED)
+                                    ? "; for that, leave " + quote(asked->name) + " out (" + asked->help + ')'
+                                    : ""));
     return found->find(row);
   };
   const Warn warn = [this](const Place& place, const std::string& message) {
@@ -115,6 +127,7 @@ void Instance::check_attributes() {
     const int found = find_param(given.name);
     if (found < 0) refuse_unknown(given, declared_.plugin, valid);
     const auto& param = plugin_->params[found];
+    asked = &param;
     const auto values = attribute_values(param, 1, given, find_row, warn);
     if (values.empty())
       texts_[given.name] = given.value;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "needed_attribute.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 
@@ -54,30 +55,12 @@ std::string of_time(uint32_t phase, const muster_param& declared, double value, 
            print_real(until) + " s, so that nothing comes twice; are these milliseconds?";
   if (name == "period" && unit == "s" && phase != MUSTER_RADIO && value < tick * (1 - rounding))
     return with_unit(value, declared) + " is less than a tick of " + print_real(tick) +
-           " s, so that it is taken for one tick";
+           " s, so that it is taken for one tick; expected period=\"" + print_real(tick) + "\", or dt=\"" +
+           print_real(value) + '"';
   if (name == "rate" && unit == "Hz" && value * tick > 1 + rounding)
     return with_unit(value, declared) + " is above the rate of the ticks, " + print_real(1 / tick) +
            " Hz, and there is one reading a tick; expected dt=\"" + print_real(1 / value) + "\", or a lower rate";
   return "";
-}
-
-// How the help of an attribute ends that counts only beside another: `; only with rssi`, `; only with model="disc"`.
-constexpr std::string_view only_with = "; only with ";
-
-// True where the attribute that `condition` names has the value in it, or any but none.
-bool holds(const std::string& condition, const muster_plugin& plugin, const std::vector<double>& values,
-           const InstanceDeclaration& declared) {
-  const auto equals = condition.find("=\"");
-  const int number = find_param(plugin, condition.substr(0, equals));
-  if (number < 0) return true;
-  const muster_param& param = plugin.params[number];
-  const double value = values[static_cast<std::size_t>(number)];
-  if (equals != condition.npos)
-    return value_text(param, value) == condition.substr(equals + 2, condition.size() - equals - 3);
-  if (param.kind == MUSTER_REFERENCE) return value >= 0;
-  if (param.kind != MUSTER_TEXT && param.kind != MUSTER_FILE) return value != 0;
-  const XmlAttribute* given = declared.attribute(param.name);
-  return given ? !given->value.empty() : param.text && *param.text;
 }
 
 // Warns once for each condition that does not hold, at the first attribute that counts only with it.
@@ -85,13 +68,10 @@ void warn_of_idle(const muster_plugin& plugin, const std::vector<double>& values
                   const World& world, const Warn& warn) {
   std::vector<std::pair<std::string, std::vector<const XmlAttribute*>>> idle;
   for (const auto& given : declared.attributes) {
-    const std::string_view help = plugin.params[find_param(plugin, given.name)].help;
-    const auto at = help.rfind(only_with);
-    if (at == help.npos) continue;
-    const std::string condition(help.substr(at + only_with.size()));
-    if (holds(condition, plugin, values, declared) ||
-        is_set_later(world, declared.name + '/' + condition.substr(0, condition.find('='))))
-      continue;
+    const std::string condition = condition_in(plugin.params[find_param(plugin, given.name)].help);
+    if (condition.empty()) continue;
+    const Needed needed(condition, plugin);
+    if (needed.holds(plugin, values, declared) || is_set_later(world, declared.name + '/' + needed.name())) continue;
     const auto found =
         std::find_if(idle.begin(), idle.end(), [&](const auto& each) { return each.first == condition; });
     if (found == idle.end()) {
@@ -101,17 +81,15 @@ void warn_of_idle(const muster_plugin& plugin, const std::vector<double>& values
     }
   }
   for (const auto& [condition, attributes] : idle) {
-    const int beside = find_param(plugin, condition);
-    const bool is_flag = beside >= 0 && plugin.params[beside].kind == MUSTER_FLAG;
-    const std::string wanted =
-        condition.find('=') != condition.npos ? condition : condition + (is_flag ? "=\"true\"" : "=\"...\"");
+    const Needed needed(condition, plugin);
     std::string others, all = attributes[0]->name;
     for (std::size_t i = 1; i < attributes.size(); ++i) {
       others += (i == 1 ? ", nor has " : i + 1 < attributes.size() ? ", " : " or ") + quote(attributes[i]->name);
       all += (i + 1 < attributes.size() ? ", " : " and ") + attributes[i]->name;
     }
-    warn(attributes[0]->value_place, "attribute " + quote(attributes[0]->name) + ": has no effect without " + wanted +
-                                         others + "; expected " + wanted + " beside it, or no " + all);
+    warn(attributes[0]->value_place, "attribute " + quote(attributes[0]->name) + ": has no effect " +
+                                         needed.where_not() + others + "; expected " + needed.wanted() + ", or no " +
+                                         all);
   }
 }
 

@@ -81,6 +81,7 @@ class Linker {
   std::vector<std::string> readable() const;
   std::string expected_writer(const TableName& name, const std::string& table) const;
   void check_reads(const std::string& logical, const Claimed& c) const;
+  std::string one_of_a_kind(const Claimed::By& one, const Claimed::By& other) const;
   void check_writers(const std::string& logical, const Claimed& c) const;
   void check_columns(const std::string& logical, const Claimed& c) const;
   void check_stages(const std::string& logical, const Claimed& c) const;

@@ -167,6 +167,17 @@ void check_phase(const std::string& does, const std::string& logical, const Clai
 
 }  // namespace
 
+// Of two networks, or two kinds of physics, that both write what muster knows one such plugin for.
+std::string Linker::one_of_a_kind(const Claimed::By& one, const Claimed::By& other) const {
+  const Quantity* known = standard_quantity(standard_, one.get().name);
+  const auto kind = [](const std::string& plugin) { return plugin.substr(0, plugin.find('.')); };
+  const std::string provider = known ? known->provider : "";
+  if (provider.empty() || kind(one.instance->declared().plugin) != kind(provider) ||
+      kind(other.instance->declared().plugin) != kind(provider))
+    return "";
+  return ": a world has one " + kind(provider) + " plugin, which works for all";
+}
+
 void Linker::check_writers(const std::string& logical, const Claimed& c) const {
   if (!c.writers.empty() && !c.adders.empty()) {
     const Instance& writer = *c.writers[0].instance;
@@ -183,7 +194,7 @@ void Linker::check_writers(const std::string& logical, const Claimed& c) const {
       if (board_.find_set(one.get().name.set)->kind == SetKind::queue) continue;  // each appends rows of its own
       if (collide(one.get(), other.get()))
         throw one.instance->refused("writes " + quote(one.get().name.text()) + both(*other.instance) +
-                                    "; expected one of the two");
+                                    "; expected one of the two" + one_of_a_kind(one, other));
       check_phase("writes", logical, one, other);
     }
   }

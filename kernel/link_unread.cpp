@@ -21,14 +21,18 @@ bool Linker::is_minded(const std::string& set) const {
   });
 }
 
-// True for a quantity that has no effect without a reader: a command, a message, or a radio plugin's property of radios
-// or robots.
+// True for a quantity that has no effect without a reader: a command, a message, or a property of radios or robots that
+// a radio plugin writes and that is all it does. One that also writes or adds to a standard table acts by that.
 bool Linker::is_for_others(const Claimed::By& writer) const {
   const Claim& claim = writer.get();
   const bool is_standard = standard_quantity(standard_, claim.name);
   if (writer.instance->phase() <= MUSTER_ACTUATE) return is_standard;
   const Set* set = board_.find_set(claim.name.set);
-  return writer.instance->phase() == MUSTER_RADIO && !is_standard && set && set->kind == SetKind::live;
+  if (writer.instance->phase() != MUSTER_RADIO || is_standard || !set || set->kind != SetKind::live) return false;
+  const auto& claims = writer.instance->claims();
+  return std::none_of(claims.begin(), claims.end(), [this](const Claim& each) {
+    return each.kind != MUSTER_READ && standard_quantity(standard_, each.name);
+  });
 }
 
 namespace {

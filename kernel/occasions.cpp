@@ -66,6 +66,10 @@ std::vector<double> Simulation::looked_at(const Condition& condition) const {
   const std::string column = parts.back();
   parts.pop_back();
   if (parts.size() == 4 && parts[0] == "link") return of_link(parts[1], parts[2], parts[3], column);
+  if (parts.size() == 3 && parts[0] == "link" && board_.find("link/*/" + column))
+    throw Error(Exit::invalid_input,
+                quote(condition.path) + " names a table and no column of it; expected " +
+                    quote(condition.path + '/' + board_.find("link/*/" + column)->columns()[0].name));
   const TableView view = table(condition.path.substr(0, condition.path.rfind('/')));
   const Set& set = view.table->set();
   if (!set.is_named() && view.row < 0)

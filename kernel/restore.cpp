@@ -62,7 +62,8 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     if (!same) {
       const auto [theirs, ours] = std::mismatch(
           saved.names.begin(), saved.names.begin() + static_cast<std::ptrdiff_t>(common), set->names.begin());
-      refuse("its set " + quote(name) + " has other rows: " + quote(*theirs) + " there, " + quote(*ours) + " here");
+      refuse("it has the " + name + ' ' + quote(*theirs) + " where this one has " + quote(*ours) +
+             "; expected the world that it was saved from");
     }
     const bool whole =
         saved.alive.size() == saved.names.size() && saved.like.size() == saved.names.size() &&

@@ -268,6 +268,11 @@ std::string Simulation::suggest_table(const std::string& name) const {
       of_word[table.substr(table.rfind('/') + 1)] = table;
   }
   if (of_word.empty()) {
+    for (const auto& set : standard_.sets) {  // "pose": a quantity alone
+      const std::string table = std::string(set.name) + "/*/" + name;
+      if (valid.count(table))
+        return "did you mean " + quote(table) + "? expected SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows";
+    }
     const std::string meant = of_named_row(name, valid);
     if (!meant.empty())
       return "did you mean " + quote(meant) + "? expected SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows";

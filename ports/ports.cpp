@@ -80,6 +80,17 @@ Known known_table(const std::string& set, const std::string& quantity) {
   return {};
 }
 
+// The quantity that has `word` for another name, or that begins with it; "" if there is none.
+std::string meant_quantity(const SetDeclaration& set, const std::string& word) {
+  for (const auto& each : set.quantities) {
+    if ((' ' + std::string(each.also) + ' ').find(' ' + word + ' ') != std::string::npos) return each.name;
+  }
+  for (const auto& each : set.quantities) {
+    if (!word.empty() && std::string(each.name).rfind(word, 0) == 0) return each.name;
+  }
+  return "";
+}
+
 Port claimed(const muster_host* host, const Word& word, const Asked& asked, int robot) {
   const std::string attribute = asked.attribute;
   const auto first = word.table.find('/'), last = word.table.rfind('/');
@@ -89,6 +100,11 @@ Port claimed(const muster_host* host, const Word& word, const Asked& asked, int 
   const std::string set = word.table.substr(0, first), row = word.table.substr(first + 1, last - first - 1);
   const Known known = known_table(set, word.table.substr(last + 1));
   const std::string columns = word.columns.empty() && known.quantity ? known.quantity->columns : word.columns;
+  if (columns.empty() && known.set)
+    if (const std::string meant = meant_quantity(*known.set, word.table.substr(last + 1)); !meant.empty())
+      throw BadInput("attribute \"" + attribute + "\": \"" + word.table + "\" is no standard table; did you mean " +
+                     set + '/' + row + '/' + meant + "? a table of your own has its columns behind it, such as " +
+                     word.table + "(x[m] y[m])");
   if (columns.empty())
     throw BadInput("attribute \"" + attribute + "\": \"" + word.table +
                    "\" is no standard table; expected its columns behind it, such as " + word.table + "(x[m] y[m])");

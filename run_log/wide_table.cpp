@@ -150,6 +150,16 @@ class OneColumn : public Numbers {
   double time_ = 0;
 };
 
+// Of "pose" where there is robot/rover/pose/x: the table is meant, with all of its columns.
+std::string meant_table(const std::string& word, const std::vector<std::string>& columns) {
+  for (const std::string& column : columns) {
+    const std::string table = column.substr(0, column.rfind('/'));
+    if (table.ends_with('/' + word))
+      return "did you mean " + quote(table) + ", a whole table? " + expected_one_of(columns);
+  }
+  return suggest(word, columns);
+}
+
 }  // namespace
 
 WideTable write_wide(const fs::path& log, const fs::path& csv, const std::vector<std::string>& wanted) {
@@ -163,7 +173,7 @@ WideTable write_wide(const fs::path& log, const fs::path& csv, const std::vector
     bool is_there = false;
     for (const std::string& column : header.seen) is_there = is_there || is_wanted(column, {pattern});
     if (!is_there)
-      throw invalid({log.string()}, "has no column " + quote(pattern) + "; " + suggest(pattern, header.seen));
+      throw invalid({log.string()}, "has no column " + quote(pattern) + "; " + meant_table(pattern, header.seen));
   }
   TextTableWriter to(csv, header.titles);
   Body body(header, to, log);

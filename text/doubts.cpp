@@ -99,6 +99,8 @@ std::string unit_hint(std::string_view unit, double value, double least, double 
     }
   }
   if (unit == "dBm" && value > most && is_within(-value, least, most)) return "; is a minus missing?";
+  if (unit == "dB" && value < 0 && least == 0 && is_within(-value, least, most))
+    return "; without the minus? losses and deviations are positive: " + print_real(-value);
   if (unit == "m" && most >= globe && std::abs(value) > most)
     return "; a place on the globe (UTM)? expected metres from an origin of your own";
   if (unit == "m/s" && value > most && is_within(value * centimetre, least, most)) return "; is this in cm/s?";

@@ -184,8 +184,17 @@ void TextTable::read_header() {
     if (is_new) continue;
     throw invalid(header_place(column), "column " + quote(columns_.back().name) +
                                             " stands twice; the first is column " + std::to_string(first->second + 1) +
-                                            " of the header");
+                                            " of the header; expected one of the two, or another name for it");
   }
+}
+
+// Of "rssi [dBm]": `; did you mean "rssi[dBm]"?`.
+static std::string without_space_before_unit(const std::string& label) {
+  const auto open = label.find(" [");
+  if (open == label.npos || label.back() != ']') return "";
+  std::string meant = label;
+  meant.erase(open, 1);
+  return meant.find(' ') == meant.npos ? "; did you mean " + quote(meant) + "?" : "";
 }
 
 TextColumn TextTable::read_label(std::size_t column) const {
@@ -201,8 +210,9 @@ TextColumn TextTable::read_label(std::size_t column) const {
   }
   if (label.empty()) throw invalid(header_place(column), nameless(column));
   if (!good)
-    throw invalid(header_place(column),
-                  quote(label) + " is not a column; expected name or name[unit], without spaces around it");
+    throw invalid(header_place(column), quote(label) +
+                                            " is not a column; expected name or name[unit], without spaces around it" +
+                                            without_space_before_unit(label));
   return result;
 }
 

@@ -98,7 +98,8 @@ class Doubts {
       const auto [other, is_new] = first.emplace(Key{a[0], a[1], b[0], b[1], wall.base(), wall.height()}, wall.row);
       if (!is_new)
         warn(wall.row->place, "wall " + quote(wall.row->name) + " has the ends of wall " + quote(other->second->name) +
-                                  " (" + other->second->place.text() + "), so that links pay for both");
+                                  " (" + other->second->place.text() +
+                                  "), so that links pay for both; expected one of the two");
     }
   }
 

@@ -86,6 +86,18 @@ void warn_of_long_wait(const XmlElement& element, const std::string& outcome, Wo
                                                     ", so that <" + element.name + "> " + outcome});
 }
 
+// Of two records of one table the first alone is written.
+void warn_of_second_record(const XmlElement& element, World& world) {
+  const RecordDeclaration& made = world.records.back();
+  const auto first = std::find_if(world.records.begin(), world.records.end(),
+                                  [&](const RecordDeclaration& each) { return each.table == made.table; });
+  if (first == world.records.end() - 1) return;
+  world.warnings.push_back({element.place, "<record> of " + quote(made.table) + " stands twice, and the first (" +
+                                               first->place.text() + ") alone is written, every " +
+                                               std::to_string(first->every) + (first->every == 1 ? " tick" : " ticks") +
+                                               "; expected one of the two"});
+}
+
 // The model that is like that of Gazebo in a text such as "model://turtlebot3_waffle"; "..." where none is known.
 std::string model_meant_by(std::string_view text) {
   static const std::vector<std::string> likely = {"waffle", "husky", "scarab", "hummingbird", "f1tenth", "youbot"};
@@ -187,6 +199,7 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
   } else if (element.name == "record") {
     world.records.push_back(read_record(element));
     warn_of_long_wait(element, "is written at its start alone", world);
+    warn_of_second_record(element, world);
   } else if (element.name.find('.') != std::string::npos) {
     world.instances.push_back(read_instance(element, element.name));
     warn_of_long_wait(element, "does not step after its start", world);

@@ -68,7 +68,12 @@ NumberRule number_rule(std::string text, const Place& place) {
     if (at == text.npos) continue;
     if (text.back() == ')' && text.find('(') < at && text.rfind("log10(", 0) != 0)
       throw invalid(place, quote(text) + " has parentheses; expected SCALE*COLUMN + OFFSET, such as 0.01*x_cm + 0.05");
-    rule.offset = number_of(trimmed(text.substr(at + 3)), place) * (sign[1] == '-' ? -1 : 1);
+    const std::string second = trimmed(text.substr(at + 3));
+    if (!parse_real(second) && (second.find('*') != text.npos || std::isalpha(static_cast<unsigned char>(second[0]))))
+      throw invalid(place, quote(second) +
+                               " is no number, and a rule takes one column, SCALE*COLUMN + OFFSET; expected "
+                               "one of the two columns, or one that has both in it (of a stamp: t[s] = time COLUMN)");
+    rule.offset = number_of(second, place) * (sign[1] == '-' ? -1 : 1);
     text = trimmed(text.substr(0, at));
     break;
   }
@@ -151,7 +156,11 @@ class Reader {
  private:
   void read_rule(const std::string& line) {
     const std::size_t equals = line.find('=');
-    if (equals == line.npos) throw invalid(place_, quote(line) + " has no '='; expected COLUMN[UNIT] = RULE");
+    if (equals == line.npos)
+      throw invalid(place_, quote(line) + " has no '='; expected COLUMN[UNIT] = RULE" +
+                                (line.find_first_of(",;\t") != line.npos
+                                     ? "; is this the table? expected muster import TABLE --map MAP"
+                                     : ""));
     const std::string left = trimmed(line.substr(0, equals)), right = trimmed(line.substr(equals + 1));
     const auto words = words_of(left);
     if (words.size() == 2 && words[0] == "for") return read_variable(words[1], right);
@@ -160,6 +169,9 @@ class Reader {
     if (left == "file name") return read_file_name(right);
     if (read_shape(left, right)) return;
     if (left == "origin") return read_origin(right);
+    if (left == "none")
+      throw invalid(place_, "none names no column; expected none COLUMN = " + right +
+                                ", the column of the log in which that means no value");
     if (words.size() != 1)
       throw invalid(place_, quote(left) + " is no column; expected name or name[unit], for, table, none or file name");
     read_column(left, right);

@@ -170,8 +170,10 @@ class Importer {
       return;  // a row number, or refused when read
     const auto& [name, unit] = *known;
     if (rule.column.unit != unit)
-      throw invalid(rule.place, "column " + quote(rule.column.label()) + " has the wrong unit; expected " +
-                                    quote(TextColumn{name, unit}.label()) + ", and SCALE*COLUMN where that differs");
+      throw invalid(rule.place,
+                    "column " + quote(rule.column.label()) +
+                        (rule.column.unit.empty() ? " has no unit; expected " : " has the wrong unit; expected ") +
+                        quote(TextColumn{name, unit}.label()) + ", and SCALE*COLUMN where that differs");
     if (unit.empty() && !rule.is_name) {
       const std::string from = rule.number ? rule.number->from.column : "",
                         begin = quote(name) + " is a column of names";

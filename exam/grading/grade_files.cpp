@@ -192,8 +192,9 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
     throw std::invalid_argument(
         fmt::format("{}: has no readable report of any of the {} cases; expected what muster diagnose --json prints, "
                     "as muster exam "
-                    "run FOLDER keeps it",
-                    reports.string(), files.size()));
+                    "run FOLDER keeps it{}",
+                    reports.string(), files.size(),
+                    answers.filename() == "answers" ? "; --answers is the folder above answers/" : ""));
   grades.seconds = costs_in(reports);
   return grades;
 }

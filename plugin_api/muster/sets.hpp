@@ -28,6 +28,7 @@ struct Quantity {
   const char* user = "";    // a plugin that makes it have an effect, for the message where nobody reads it
   const char* writer = "";  // an element that writes it, for the message where nobody does; "" for none of muster's own
   const char* also = "";    // other words for it, with blanks between: what a misspelt table may mean
+  const char* felt = "";    // of truth: what a controller reads in its place, for the message where it asks for it
 };
 
 struct SetDeclaration {
@@ -122,12 +123,18 @@ inline const Standard& standard() {
            "",
            "bodies that move",
            {{"pose", Pose::columns, "0 0 0 1 0 0 0", false, "physics.simbody", "", "physics.simbody",
-             "position place location at state xy xyz"},
-            {"twist", Twist::columns, "", false, "physics.simbody", "", "physics.simbody", "velocity speed vel"},
-            {"wheels", Wheels::columns, "", false, "physics.simbody"},
+             "position place location at state xy xyz",
+             "read<Odometry>(\"robot/{robot}/odometry\"), or read<Position3d>(\"robot/{robot}/position3d\") of what "
+             "flies"},
+            {"twist", Twist::columns, "", false, "physics.simbody", "", "physics.simbody", "velocity speed vel",
+             "read<Odometry>(\"robot/{robot}/odometry\"), or read<Position3d>(\"robot/{robot}/position3d\") of what "
+             "flies"},
+            {"wheels", Wheels::columns, "", false, "physics.simbody", "", "", "",
+             "read<Odometry>(\"robot/{robot}/odometry\")"},
             {"command", Command::columns, "", true, "", "physics.simbody", "control.steady robot=\"...\"", "cmd_vel"},
             {"car_command", CarCommand::columns, "", true, "", "control.car"},
-            {"goal2d", Goal2d::columns, "", true, "", "control.goal2d", "", "goal"},
+            {"goal2d", Goal2d::columns, "", true, "", "control.goal2d", "control.mission robot=\"...\" mission=\"...\"",
+             "goal"},
             {"drive", Drive::columns, "", false, "robots.drive"},
             {"gait", Gait::columns, "", false, "robots.gait"},
             {"legs", Legs::columns, "", false, "physics.simbody"},
@@ -158,9 +165,11 @@ inline const Standard& standard() {
            "",
            "pairs of endpoints that may hear each other",
            {{"ends", Ends::columns, "", false, "radio.links"},
-            {"level", Level::columns, "", false, "", "", "radio.multiwall", "power"},
+            {"level", Level::columns, "", false, "", "", "radio.multiwall", "power",
+             "the rssi of messages, read<Incoming>(\"inbox/{robot}/message\")"},
             {"fading", Fading::columns, "", false, "", "", "radio.fading"},
-            {"rssi", Rssi::columns, "", false, "radio.receiver", "", "", "signal strength"}}},
+            {"rssi", Rssi::columns, "", false, "radio.receiver", "", "", "signal strength",
+             "the rssi of messages, read<Incoming>(\"inbox/{robot}/message\")"}}},
           {"scan", SetKind::queue, "robot", "what lasers saw", {{"message", Scan::columns, "", true, "sensors.laser"}}},
           {"heard",
            SetKind::queue,

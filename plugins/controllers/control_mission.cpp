@@ -81,9 +81,9 @@ struct ControlMission {
       real("report", 0, 0, 1000, "s", "it says \"at X Y Z\" to all so often; 0: never"),
       flag("answers", true, "it answers the messages that it awaits"),
       real("smoothing", 2, 0, 1000, "s", "time constant of the filter of rssi"),
-      real("speed", 1, 1e-3, 100, "m/s", "in the air"),
-      real("gain", 1, 1e-3, 100, "1/s", "in the air: velocity for each metre of distance"),
-      real("heading_gain", 1, 0, 100, "1/s", "in the air: turn rate for each radian off the heading")};
+      real("speed", 1, 1e-3, 100, "m/s", "in the air; only with moves=\"air\""),
+      real("gain", 1, 1e-3, 100, "1/s", "velocity for each metre of distance; only with moves=\"air\""),
+      real("heading_gain", 1, 0, 100, "1/s", "turn rate for each radian off the heading; only with moves=\"air\"")};
 
   struct State {
     static constexpr const char* columns =

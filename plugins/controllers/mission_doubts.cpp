@@ -185,10 +185,14 @@ std::vector<std::string> doubts_of_orders(const Setup& setup, const XmlElement& 
     if (words && talk.is_whole && !has(talk.awaited, words->value))
       doubts.push_back(words->value_place.text() + ": attribute \"text\": no mission of this world waits for " +
                        quote(words->value) + did_you_mean(words->value, talk.awaited) +
-                       (talk.awaited.empty() ? "" : "; " + expected_one_of(talk.awaited)));
+                       (talk.awaited.empty()
+                            ? "; expected a <control.mission> with <wait message=" + quote(words->value) +
+                                  "/> or <on message=" + quote(words->value) + ">"
+                            : "; " + expected_one_of(talk.awaited)));
     if (at && until > 0 && parse_real(at->value).value_or(0) > until)
       doubts.push_back(at->value_place.text() + ": attribute \"at\": " + at->value +
-                       " s is after the end of the run at " + print_real(until) + " s");
+                       " s is after the end of the run at " + print_real(until) + " s; expected a time below " +
+                       print_real(until) + " s, or a longer run (until)");
   }
   return doubts;
 }

@@ -1,10 +1,20 @@
 #include "mission_program.hpp"
 
+#include <algorithm>
+
 #include "mission_elements.hpp"
 #include "text/doubts.hpp"
 
 namespace muster::missions {
 namespace {
+
+// Of "4,0": `; numbers stand between blanks: at="4 0"`.
+std::string without_commas(std::string text) {
+  if (text.find(',') == text.npos) return "";
+  std::replace(text.begin(), text.end(), ',', ' ');
+  if (!parse_reals(text, 2) && !parse_reals(text, 3)) return "";
+  return "; numbers stand between blanks: at=" + quote(text);
+}
 
 constexpr double far = 1e6, long_time = 1e9;
 const std::vector<std::string> steps = {"go_to", "wait", "say", "follow", "keep_link", "repeat", "patrol", "choose"};
@@ -79,7 +89,9 @@ class Compiler {
     if (!place) place = parse_reals(at.value, 2);
     if (place && place->size() == 3 && !flies_)
       refuse(at.value_place, "attribute \"at\": a robot on the ground has no height to go to; expected x y");
-    if (!place) refuse(at.value_place, "attribute \"at\": " + quote(at.value) + " is no place; expected x y or x y z");
+    if (!place)
+      refuse(at.value_place,
+             "attribute \"at\": " + quote(at.value) + " is no place; expected x y or x y z" + without_commas(at.value));
     for (const double value : *place) {
       if (!(std::abs(value) <= far))
         refuse(at.value_place, "attribute \"at\": " + print_real(value) + " is out of bounds; expected metres within " +
@@ -175,7 +187,8 @@ class Compiler {
     repeat(element, [&] {
       for (const auto& place : element.children) {
         if (place.name != "place")
-          refuse(place.place, "<" + place.name + "> is no element of <patrol>; expected <place at=\"x y\"/>");
+          refuse(place.place, "<" + place.name + "> is no element of <patrol>; expected <place at=\"x y\"/>" +
+                                  (place.name == "on" ? ", and <on> beside <patrol>, in <mission>" : ""));
         go_to(place, {"at", "heading"});
         program_.code.back().number = number(element, "within", 0.1, 1e-3, far);
         program_.code.back().patience = number(element, "patience", 0, 1e-3, long_time);

@@ -26,8 +26,8 @@ that was taken back. ns-3 holds one simulation a process: a second one is refuse
   static constexpr Param params[] = {
       real("noise", -106.987, -250, 50, "dBm", "of a receiver; as it stands when the run begins"),
       choice("routing", "none|mesh", "by ns-3 itself; as it stands when the run begins"),
-      integer("hops", 10, 1, 15, "that a frame makes where ns-3 routes"),
-      flag("acknowledge", true, "messages to one receiver are acknowledged, where ns-3 does not route"),
+      integer("hops", 10, 1, 15, "that a frame makes; only with routing=\"mesh\""),
+      flag("acknowledge", true, "messages to one receiver are acknowledged; only with routing=\"none\""),
       integer("queue", 16, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
       external::Adaptor::spread_param,
   };

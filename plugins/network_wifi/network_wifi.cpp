@@ -33,7 +33,7 @@ gone + those still under way.)";
       real("busy_threshold", -62, -250, 50, "dBm", "power of any kind above which the channel is busy"),
       real("noise", -93.966, -250, 50, "dBm", "of a receiver"),
       flag("acknowledge", true, "messages to one receiver are acknowledged"),
-      integer("retries", 6, 0, 255, "of a frame that was not acknowledged"),
+      integer("retries", 6, 0, 255, "of a frame that was not acknowledged; only with acknowledge"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a station beside the one that it sends"),
       medium::Board::spread_param,
       medium::Readings::mode_param,

@@ -103,7 +103,9 @@ struct PhysicsReplay {
     for (const auto& [name, value] : parts)
       if (is_null(value)) missing += (missing.empty() ? "" : ", ") + std::string(name);
     const std::string what = "has neither yaw nor qw, qx, qy, qz of length 1: ";
-    if (!missing.empty()) return what + (missing == "qw, qx, qy, qz" ? "it has none of them" : missing + " is missing");
+    if (!missing.empty())
+      return what + (missing == "qw, qx, qy, qz" ? "it has none of them; expected a column yaw[rad]"
+                                                 : missing + " is missing");
     return what + "its length is " + print(std::sqrt(m.qw * m.qw + m.qx * m.qx + m.qy * m.qy + m.qz * m.qz));
   }
 

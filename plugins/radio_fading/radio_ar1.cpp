@@ -32,10 +32,12 @@ tick begins anew. Expectations are those of radio.fading.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation"),
-      real("decorrelation", 2, 0.01, 1e4, "m", "way of one end over which shadowing's correlation falls to 1/e"),
+      real("decorrelation", 2, 0.01, 1e4, "m",
+           "way of one end over which shadowing's correlation falls to 1/e; only with shadowing"),
       flag("fading", true, "small-scale fading; without, its gain is 1"),
-      real("rician_k", -40, -40, 60, "dB", "steady over diffuse power; at -40 Rayleigh fading exactly"),
-      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier, for the wavelength of fading"),
+      real("rician_k", -40, -40, 60, "dB",
+           "steady over diffuse power; at -40 Rayleigh fading exactly; only with fading"),
+      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier, for the wavelength of fading; only with fading"),
   };
 
   explicit RadioAr1(Setup& s)

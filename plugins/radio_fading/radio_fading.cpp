@@ -31,11 +31,13 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation of links much longer than the decorrelation distance"),
-      real("decorrelation", 2, 0.01, 1e4, "m", "distance over which the loss field's correlation falls to 1/e"),
+      real("decorrelation", 2, 0.01, 1e4, "m",
+           "distance over which the loss field's correlation falls to 1/e; only with shadowing"),
       flag("fading", true, "small-scale fading; without, its gain is 1"),
-      real("rician_k", -40, -40, 60, "dB", "steady over diffuse power; at -40 Rayleigh fading exactly"),
-      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier, for the wavelength of fading"),
-      flag("per_reading", false, "fading drawn for each radio, time and place anew, white in space"),
+      real("rician_k", -40, -40, 60, "dB",
+           "steady over diffuse power; at -40 Rayleigh fading exactly; only with fading"),
+      real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier, for the wavelength of fading; only with fading"),
+      flag("per_reading", false, "fading drawn for each radio, time and place anew, white in space; only with fading"),
   };
 
   static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,

@@ -22,7 +22,8 @@ fading. Asked for expectations it is 0.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation"),
-      real("decorrelation", 2, 0.01, 1e4, "m", "way of one end over which correlation falls to 1/e"),
+      real("decorrelation", 2, 0.01, 1e4, "m",
+           "way of one end over which correlation falls to 1/e; only with shadowing"),
   };
 
   static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,

@@ -22,9 +22,9 @@ does not. While it is on, its own radio hears nothing in its band.)";
       real("excess", 0, -200, 200, "dB", "power above that of messages"),
       real("frequency", 2.44175e9, 1, 1e12, "Hz", "at its spectrum's middle; by default that of the band at 2.4 GHz"),
       real("bandwidth", 83.5e6, 0, 1e12, "Hz", "of its spectrum, which is flat; by default all of that band"),
-      real("period", 1, 1e-5, 1e6, "s", "of its pulses"),
+      real("period", 1, 1e-5, 1e6, "s", "of its pulses; only with duty below 1"),
       real("duty", 1, 0, 1, "", "share of a period in which it is on"),
-      real("phase", 0, -1e6, 1e6, "s", "when a period begins"),
+      real("phase", 0, -1e6, 1e6, "s", "when a period begins; only with duty below 1"),
   };
 
   explicit RadioJammer(Setup& s)

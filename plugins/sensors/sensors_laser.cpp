@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "body_frame.hpp"
 #include "description/world_robots.hpp"
@@ -86,6 +87,25 @@ struct SensorsLaser {
       if (robot) solids.emplace(robot, solids_of(*robot));
     }
     warn_of_none(s);
+    warn_of_noise(s);
+  }
+
+  // A deviation in millimetres: readings would be noise alone.
+  void warn_of_noise(const Setup& s) const {
+    double reach = 0;
+    for (const auto& [robot, shapes] : solids)
+      for (const auto& sensor : robot->sensors) reach = std::max(reach, sensor.laser.max_range);
+    const double given = s.param("noise");
+    if (reach > 0 && given > reach)
+      s.warn("self", "attribute \"noise\": " + in_words(given) + " m is more than the laser's range of " +
+                         in_words(reach) + " m; are these millimetres? " + in_words(given) + " mm are " +
+                         in_words(given / 1000) + " m");
+  }
+
+  static std::string in_words(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
   }
 
   // Robots are there, and none of them has a laser.

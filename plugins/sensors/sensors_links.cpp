@@ -49,8 +49,8 @@ Nothing else passes through: without `jammers` this instance reads received mess
       real("noise", -250, -250, 50, "dBm", "of a receiver in its band; -250: not stated"),
       real("noise_step", 1, 0, 50, "dB", "to which noise is rounded; 0: it is not"),
       flag("jammers", false, "adds what jammers radiate; reads the levels of links from them"),
-      real("frequency", 2.44e9, 1, 1e12, "Hz", "middle of the receivers' band"),
-      real("bandwidth", 5e6, 1, 1e12, "Hz", "of the receivers' band"),
+      real("frequency", 2.44e9, 1, 1e12, "Hz", "middle of the receivers' band; only with jammers"),
+      real("bandwidth", 5e6, 1, 1e12, "Hz", "of the receivers' band; only with jammers"),
   };
 
   // Levels of links from jammers.

@@ -33,7 +33,7 @@ air, the time that a measurement takes.)";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {
       reference("robot", "robot", "whose radio measures; by default all"),
-      choice("to", "stations|robots|all", "which radios it measures to, where `peers` names none"),
+      choice("to", "stations|robots|all", "which radios it measures to; only without peers"),
       text("peers", "", "names of radios with blanks between"),
       real("rate", 10, 0, 1e6, "Hz", "of measurements of each pair, at most one a step; 0: each step"),
       real("noise", 0.05, 0, 100, "m", "standard deviation of a reading").free(),

@@ -237,8 +237,10 @@ TEST(MjcfFault, IsNamedWithItsLine) {
             ":3: <joint> type=\"hing\" is wrong here; expected hinge, slide or ball; did you mean 'hinge'?");
   EXPECT_EQ(body("<body name='c'><joint/></body>"), ":3: link 'c' moves by joint 'c_joint' but has no <inertial>");
   EXPECT_EQ(body("<inertial mass='1' diaginertia='1 1 5'/>").substr(0, 14), ":3: body 'b': ");
-  EXPECT_EQ(fault("<mujoco>\n<worldbody><body><geom size='1'/></body>\n<body/></worldbody></mujoco>"),
-            ":3: <worldbody> has a second <body>; a model is one robot: expected one <body>");
+  EXPECT_EQ(
+      fault("<mujoco>\n<worldbody><body><geom size='1'/></body>\n<body/></worldbody></mujoco>"),
+      ":3: <worldbody> has a second <body>; a model is one robot: expected one <body>, and the other as a <mesh> or a "
+      "<robot> of its own in the world");
   EXPECT_EQ(fault("<mujoco><worldbody><body name='b'><geom size='1'/></body></worldbody><actuator>\n<motor "
                   "joint='x'/></actuator></mujoco>"),
             ":2: <motor> joint 'x' is not known");

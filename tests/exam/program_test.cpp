@@ -133,9 +133,9 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --effects effect.step").text,
             "muster_exam make: no effect is called \"effect.step\"; did you mean \"step\"? muster_exam effects lists "
             "them\n");
-  EXPECT_EQ(
-      run("make --seed 3 --cases 1 --out x --mix clean --effects step").text,
-      "muster_exam make: --effects has no effect with --mix clean, whose cases hide none; expected one of the two\n");
+  EXPECT_EQ(run("make --seed 3 --cases 1 --out x --mix clean --effects step").text,
+            "muster_exam make: --effects has no effect with --mix clean, whose cases hide none; expected --mix one "
+            "beside it, or no --effects\n");
   EXPECT_EQ(run("make --seed 3x --cases 1 --out x").code, 2);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --lambda 1,2,3").text,
             "muster_exam make: --lambda needs a number, or the least and the most as L,M\n");
@@ -146,6 +146,8 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
             "--lambda, "
             "--mix, --out, --rows, --seed, --size, --style, --walls\n");
   EXPECT_EQ(run("grade exam").text, "muster_exam grade: \"exam\" is one word too many; did you mean --answers exam?\n");
+  EXPECT_EQ(run("make --seed 7 --cases 1 --rows 2000 --out ex").text,
+            "muster_exam make: --rows needs the most behind the least: --rows 2000 2000\n");
   EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 2);
 }
 

@@ -69,7 +69,7 @@ TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
   EXPECT_EQ(refused(two_robots + "<toy.copy_physics name='n' to='self/x' columns='y'/>\n"),
             of + "its table \"instance/n/*/x\" has other columns");
   EXPECT_EQ(refused("<robot name='a' at='1 0 0'/><robot name='c' at='1 0 0'/>" + one),
-            of + "its set \"radio\" has other rows: \"c\" there, \"b\" here");
+            of + "it has the radio \"c\" where this one has \"b\"; expected the world that it was saved from");
   EXPECT_EQ(refused(two_robots + "<toy.copy_sense name='n' to='self/x' own='true' add='1'/>\n"),
             of + "its instance \"n\" is a toy.copy_sense/1; here it is a toy.copy_physics/1");
 }

@@ -6,11 +6,19 @@ namespace {
 
 using Truth = ToyWorld;
 
-const std::string sensed =
-    "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
+const std::string all_sensed =
+    "robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
     "robot/stall, "
     "robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, robot/imu, "
     "robot/gps, scan/message, heard/peer, range/message, image/message, outbox/message, inbox/message";
+const std::string sensed = "expected one of " + all_sensed;
+const std::string for_a_pose =
+    "expected in its place read<Odometry>(\"robot/{robot}/odometry\"), or "
+    "read<Position3d>(\"robot/{robot}/position3d\") of what flies; or another of " +
+    all_sensed;
+const std::string for_a_level =
+    "expected in its place the rssi of messages, read<Incoming>(\"inbox/{robot}/message\"); or another of " +
+    all_sensed;
 const std::string odometry = "x[m] y[m] yaw[rad] v[m/s] w[rad/s]";
 const std::string rest = "<toy.copy_sense name='sensor' to='robot/*/odometry' columns='" + odometry + "'/>\n";
 
@@ -23,7 +31,7 @@ TEST_F(Truth, TruthIsRefused) {
   EXPECT_EQ(controller("from='robot/{robot}/pose' from_columns='" + pose + "'"),
             "world.xml:5:1: c (toy.copy_control): claims \"robot/a/pose\", which is truth; a controller knows what its "
             "robot senses: " +
-                sensed);
+                for_a_pose);
   EXPECT_EQ(controller("from='robot/b/odometry' from_columns='" + odometry + "'"),
             "world.xml:5:1: c (toy.copy_control): claims \"robot/b/odometry\", but it is bound to the robot \"a\"; "
             "expected that robot's own row");
@@ -36,7 +44,7 @@ TEST_F(Truth, TruthIsRefused) {
   EXPECT_EQ(controller("from='link/*/level' from_columns='level[dBm]'"),
             "world.xml:5:1: c (toy.copy_control): claims \"link/*/level\", which is truth; a controller knows what its "
             "robot senses: " +
-                sensed);
+                for_a_level);
   EXPECT_EQ(controller("from='instance/sensor/state'"),
             "world.xml:5:1: c (toy.copy_control): claims \"instance/sensor/*/state\", which is truth; a controller "
             "knows what its robot "
@@ -73,12 +81,27 @@ TEST_F(Truth, OtherQuantitiesAreSensedIfEveryWriterSaysSo) {
   EXPECT_EQ(reads("<toy.copy_sense name='w' to='robot/*/v' as='add' flags='4'/>"), "no error");
 }
 
+TEST_F(Truth, WhoWritesACommandIsAControllerInAnyPhase) {
+  const auto plugin = [&](const std::string& kind, const std::string& to, const std::string& from) {
+    return error_of_world(two_robots + rest + "<toy.copy_" + kind + " name='c' robot='a' to='robot/{robot}/command' " +
+                          "columns='" + to + "' from='" + from + "/>\n");
+  };
+  const std::string velocity = "v[m/s] w[rad/s]", of_pose = "robot/{robot}/pose' from_columns='" + pose + "'";
+  for (const std::string kind : {"sense", "actuate", "observe"})
+    EXPECT_EQ(plugin(kind, velocity, of_pose),
+              "world.xml:5:1: c (toy.copy_" + kind +
+                  "): claims \"robot/a/pose\", which is truth, and writes \"robot/a/command\", which makes it a "
+                  "controller, whatever its phase; a controller knows what its robot senses: " +
+                  for_a_pose);
+  EXPECT_EQ(plugin("sense", velocity, "robot/{robot}/odometry' from_columns='" + odometry + "'"), "no error");
+}
+
 TEST_F(Truth, AControllerWithoutARobotSeesNoTruthEither) {
   EXPECT_EQ(error_of_world(two_robots + "<toy.copy_control name='c' from='robot/*/pose' from_columns='" + pose +
                            "' to='self/x'/>\n"),
             "world.xml:4:1: c (toy.copy_control): claims \"robot/*/pose\", which is truth; a controller knows what its "
             "robot senses: " +
-                sensed);
+                for_a_pose);
 }
 
 }  // namespace

@@ -100,7 +100,8 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
       {"run", world, "--plot", "robot/*/pose/quw", "--out", "o"},
       "--plot: the table \"robot/*/pose\" has no column \"quw\" of numbers; expected one of x, y, z, qw, qx, qy, qz; "
       "did you mean \"qw\"?");
-  refused({"run", world, "--record", "robot/*/twist"}, "--record needs --out, the folder to write to");
+  refused({"run", world, "--record", "robot/*/twist"},
+          "--record needs --out, the folder to write to, or --mcap, a log");
   refused({"run", world, "--mcap", "a.txt/b.mcap"}, "a.txt: cannot be made: Not a directory", 74);
 }
 

@@ -90,6 +90,7 @@ TEST(WideTable, HoldsWhatIsWanted) {
   EXPECT_EQ(columns({"robot/east"}), 9u);
   EXPECT_EQ(columns({"link/base/*/rssi"}), 3u);
   EXPECT_THAT(refusal([&] { columns({"robot/*/pose/w"}); }), HasSubstr("has no column \"robot/*/pose/w\"; "));
+  EXPECT_THAT(refusal([&] { columns({"pose"}); }), HasSubstr("/pose\", a whole table? expected one of "));
   EXPECT_THAT(refusal([&] { columns({"robot/est/pose/x"}); }), HasSubstr("did you mean \"robot/east/pose/x\"?"));
 }
 

@@ -71,6 +71,8 @@ TEST(Doubts, HintsOfAnotherUnitNameWhatWouldBeWithinTheBounds) {
   EXPECT_EQ(unit_hint("m/s", 200, 0, 10), "; is this in cm/s?");
   EXPECT_EQ(unit_hint("rad", 65, 0.1, 3.1), "; 65 degrees are 1.134 rad");
   EXPECT_EQ(unit_hint("dB", 200, 0, 100), "");
+  EXPECT_EQ(unit_hint("dB", -40, 0, 150), "; without the minus? losses and deviations are positive: 40");
+  EXPECT_EQ(unit_hint("dB", -70, -60, 60), "");
 }
 
 TEST(Doubts, PowersInWattsAreTakenToDecibels) {

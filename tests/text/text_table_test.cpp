@@ -125,9 +125,12 @@ TEST_F(Table, RefusesBadHeaders) {
             "d.csv:1:1: begins as a flight plan of QGroundControl does; expected a table: a header of names, and ',' "
             "between cells, such as x[m],y[m],z[m], in metres from an origin of your own (a degree of latitude is some "
             "111200 m, one of longitude that times cos(latitude))");
-  EXPECT_EQ(error_in("t[s],tx,t\n"), "d.csv:1:9: column \"t\" stands twice; the first is column 1 of the header");
+  EXPECT_EQ(error_in("t[s],tx,t\n"),
+            "d.csv:1:9: column \"t\" stands twice; the first is column 1 of the header; expected one of the two, or "
+            "another name for it");
   const std::string expected = " is not a column; expected name or name[unit], without spaces around it";
-  for (const std::string label : {"[m]", "b[", "b[]", "b]", "b[m", "b[m]x", "b[[m]]", " b", "b ", "b [m]", "b[m]]"}) {
+  EXPECT_EQ(error_in("b [m],c\n"), "d.csv:1:1: \"b [m]\"" + expected + "; did you mean \"b[m]\"?");
+  for (const std::string label : {"[m]", "b[", "b[]", "b]", "b[m", "b[m]x", "b[[m]]", " b", "b ", "b[m]]"}) {
     EXPECT_EQ(error_in("a," + label + ",c\n"), "d.csv:1:3: \"" + label + "\"" + expected);
   }
 }

@@ -18,7 +18,8 @@ const std::string wall = "<material name='m' loss='3'/><wall name='a' from='0 0'
 
 TEST_F(WorldDoubts, AWallThatStandsTwice) {
   EXPECT_EQ(doubts_with(wall + "<wall name='b' from='4 0' to='0 0' material='m'/>"),
-            "world.xml:3:1: wall \"b\" has the ends of wall \"a\" (world.xml:2:30), so that links pay for both\n");
+            "world.xml:3:1: wall \"b\" has the ends of wall \"a\" (world.xml:2:30), so that links pay for both; "
+            "expected one of the two\n");
   EXPECT_EQ(doubts_with(wall + "<wall name='b' from='4 0' to='0 1' material='m'/>"), "");
   EXPECT_EQ(doubts_with(wall + "<wall name='b' from='0 0' to='4 0' base='2.7' material='m'/>"), "");
 }

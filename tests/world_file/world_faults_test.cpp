@@ -93,8 +93,10 @@ TEST_F(Faults, Fault7Units) {
   EXPECT_EQ(world.warnings[0].message,
             "attribute \"heading\": 90 rad is more than a full turn; are these degrees? 90 "
             "degrees are 1.5708 rad");
-  EXPECT_EQ(error_with("<material name='m' loss='-1'/>"),
-            "world.xml:2:26: attribute \"loss\": -1 is out of bounds; expected a number from 0 to 100 dB");
+  EXPECT_EQ(
+      error_with("<material name='m' loss='-1'/>"),
+      "world.xml:2:26: attribute \"loss\": -1 is out of bounds; expected a number from 0 to 100 dB; without the minus? "
+      "losses and deviations are positive: 1");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' height='0' material='m'/>"),
             "world.xml:3:35: attribute \"height\": 0 is out of bounds; expected a number from 0.001 to 1e+06 m");
   EXPECT_EQ(error("<world dt='0' until='10'/>"),

@@ -58,6 +58,11 @@ TEST(CompareWords, AreRefusedWithTheNearestName) {
       {{"physics=physics.planar", "acceleration=1"},
        "muster compare: no instance is called \"acceleration\"; did you mean physics=physics.planar:acceleration=1? "
        "attributes follow their plugin behind a colon"},
+      {{"physics=physics.planar,acceleration=4"},
+       "muster compare: \"physics.planar,acceleration=4\" is no plugin; did you mean "
+       "physics=physics.planar:acceleration=4? attributes follow their plugin behind a colon"},
+      {{"physics=physics.planar:acceleration:4"},
+       "muster compare: \"acceleration\" is no attribute; expected NAME=VALUE; did you mean acceleration=4?"},
       {{"coarse.xml"}, "coarse.xml: ticks of 0.1 s against 0.05 s; expected one dt"},
       {{"absent.xml"}, "absent.xml: no such file"}};
   for (const auto& [words, message] : cases) {

@@ -127,8 +127,10 @@ TEST(Fault7, DegreesInAFieldOfRadiansAreWarnedOf) {
 
 TEST(Fault7, ImpossibleQuantitiesAreRefused) {
   const ProgramFolder folder;
-  folder.expect_refused(world_of(R"(<material name="m" loss="-4"/>)"),
-                        "world.xml:1:61: attribute \"loss\": -4 is out of bounds; expected a number from 0 to 100 dB");
+  folder.expect_refused(
+      world_of(R"(<material name="m" loss="-4"/>)"),
+      "world.xml:1:61: attribute \"loss\": -4 is out of bounds; expected a number from 0 to 100 dB; without the "
+      "minus? losses and deviations are positive: 4");
   folder.expect_refused(
       R"(<world dt="0" until="1"/>)",
       "world.xml:1:12: attribute \"dt\": 0 is out of bounds; expected the tick in seconds, from 1e-09");

@@ -50,19 +50,21 @@ TEST(FirstHour, AStageBringsWhatItIsAStageOf) {
 TEST(FirstHour, AGoalThatNobodyGives) {
   expect_refused(rover + "<physics.planar/>\n<control.goal2d robot=\"rover\"/>",
                  "world.xml:4:1: control.goal2d (control.goal2d): reads \"robot/rover/goal2d\", which nobody writes; "
-                 "expected a plugin of your own that does (muster new controller NAME begins one)");
+                 "expected a plugin that does, such as <control.mission robot=\"...\" mission=\"...\"/>");
 }
 
 TEST(FirstHour, TwoBackendsOfPhysics) {
   expect_refused(rover + "<physics.simbody/>\n<physics.planar/>",
                  "world.xml:4:1: physics.planar (physics.planar): writes \"robot/*/pose\"; so does world.xml:3:1: "
-                 "physics.simbody (physics.simbody); expected one of the two");
+                 "physics.simbody (physics.simbody); expected one of the two: a world has one physics plugin, which "
+                 "works for all");
 }
 
 TEST(FirstHour, TwoNetworks) {
   expect_refused(base + channel + "<network.ideal/>\n<network.wifi/>\n" + beacon,
                  "world.xml:5:1: network.wifi (network.wifi): writes \"radio/*/traffic\"; so does world.xml:4:1: "
-                 "network.ideal (network.ideal); expected one of the two");
+                 "network.ideal (network.ideal); expected one of the two: a world has one network plugin, which works "
+                 "for all");
 }
 
 TEST(FirstHour, EightSlavesOfBluetooth) {

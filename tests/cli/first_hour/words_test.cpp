@@ -36,4 +36,35 @@ TEST(FirstHour, AFamilyOfPluginsIsNoPlugin) {
   EXPECT_THAT(outcome.err, testing::HasSubstr(", radio.multiwall, "));
 }
 
+TEST(FirstHour, AWorldWithoutItsVerb) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of(""));
+  expect_error(
+      folder.muster({"world.xml"}), 2,
+      "there is no verb \"world.xml\", which is a file; did you mean muster run world.xml? muster --help lists "
+      "the verbs");
+  expect_error(folder.muster({"run", "--world", "world.xml"}), 2,
+               "muster run: there is no option \"--world\"; the world stands without an option: muster run world.xml; "
+               "see muster run --help");
+}
+
+TEST(FirstHour, ATableAndAModelAreNoPlugins) {
+  const ProgramFolder folder;
+  expect_error(
+      folder.muster({"describe", "robot/rover/pose"}), 2,
+      "there is no plugin or element \"robot/rover/pose\"; is this a table? muster graph WORLD lists those of a "
+      "world, and who writes them");
+  EXPECT_THAT(
+      folder.muster({"describe", "scarab"}).err,
+      testing::StartsWith("muster: error: there is no element \"scarab\", but a model: <robot model=\"scarab\"/>, "
+                          "described by "));
+}
+
+TEST(FirstHour, APlotOfNoTick) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<robot name=\"a\" at=\"0 0 0\"/><physics.planar/>"));
+  expect_error(folder.muster({"run", "world.xml", "--expected", "--out", "out", "--plot", "robot/a/pose/x"}), 2,
+               "--plot shows a run, and --expected runs no tick; expected one of them");
+}
+
 }  // namespace

@@ -177,6 +177,18 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\", and SCALE*COLUMN "
             "where that "
             "differs");
+  EXPECT_EQ(failing(with("tx_y[m] =", "tx_y =")),
+            "m.map:9: column \"tx_y\" has no unit; expected \"tx_y[m]\", and SCALE*COLUMN where that differs");
+  EXPECT_EQ(failing(with("tx_y[m] =", "tx_y[m] = secs + 1e-9*nsecs\nnote =")),
+            "m.map:9: \"1e-9*nsecs\" is no number, and a rule takes one column, SCALE*COLUMN + OFFSET; expected one of "
+            "the two columns, or one that has both in it (of a stamp: t[s] = time COLUMN)");
+  EXPECT_EQ(failing(with("tx_y[m] =", "none = -128\nnote =")),
+            "m.map:9: none names no column; expected none COLUMN = -128, the column of the log in which that means no "
+            "value");
+  EXPECT_EQ(
+      failing("ms;node;x_cm\n1;a;3\n"),
+      "m.map:1: \"ms;node;x_cm\" has no '='; expected COLUMN[UNIT] = RULE; is this the table? expected muster import "
+      "TABLE --map MAP");
   EXPECT_EQ(failing(with("tx = \"robot\"", "tx = phone")),
             "m.map:6: \"tx\" is a column of names; expected tx = name phone");
   EXPECT_EQ(failing(with("tx = \"robot\"", "tx = robot1")),

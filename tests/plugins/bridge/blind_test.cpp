@@ -54,6 +54,10 @@ TEST(BridgeTables, WordsThatAreNoneAreRefused) {
                         "robot/{robot}/command"));
   EXPECT_THAT(refusal("writes=\"robot/a/gesture\""),
               HasSubstr("is no standard table; expected its columns behind it, such as robot/a/gesture(x[m] y[m])"));
+  EXPECT_THAT(
+      refusal("reads=\"robot/a/odom\" writes=\"robot/a/command\""),
+      HasSubstr("\"robot/a/odom\" is no standard table; did you mean robot/a/odometry? a table of your own has"));
+  EXPECT_THAT(refusal("writes=\"robot/a/cmd_vel\""), HasSubstr("did you mean robot/a/command?"));
   EXPECT_THAT(refusal("writes=\"robot/a/gesture(x[m]\""), HasSubstr("robot/a/gesture( has no closing )"));
   EXPECT_THAT(refusal("writes=\"robot/a/gesture(x[m] y|z)\""), HasSubstr("column \"y|z\""));
   EXPECT_THAT(refusal("writes=\"robot/c/command\""), HasSubstr("called \"c\""));

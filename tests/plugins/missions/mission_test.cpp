@@ -202,6 +202,9 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
             "2:1: <goto> is no step of a mission; expected one of go_to, wait, say, follow, keep_link, repeat, patrol, "
             "choose; did you mean \"go_to\"?");
   EXPECT_EQ(refused("<go_to at='1'/>"), "2:12: attribute \"at\": \"1\" is no place; expected x y or x y z");
+  EXPECT_EQ(
+      refused("<go_to at='4,0'/>"),
+      "2:12: attribute \"at\": \"4,0\" is no place; expected x y or x y z; numbers stand between blanks: at=\"4 0\"");
   EXPECT_EQ(refused("<go_to at='1 2' with='3'/>"),
             "2:17: <go_to> has no attribute \"with\"; expected one of at, heading, within, patience; did you mean "
             "\"within\"?");

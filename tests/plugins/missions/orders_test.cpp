@@ -56,6 +56,15 @@ TEST_F(Orders, ItGivesUp) {
                           "the order \"dance\" was never answered by scout"));
 }
 
+TEST_F(Orders, ThatNoMissionWaitsForOrThatComeTooLateAreDoubted) {
+  Simulation sim = ordered("<order at='1e6' to='scout' text='go'/>", "<go_to at='1 1'/>");
+  run_to(sim, 1);
+  const std::vector<std::string> told = said(sim, "operator");
+  ASSERT_FALSE(told.empty());
+  EXPECT_THAT(told[0], EndsWith("no mission of this world waits for \"go\"; expected a <control.mission> with <wait "
+                                "message=\"go\"/> or <on message=\"go\">"));
+}
+
 TEST_F(Orders, WhatCannotBeIsRefused) {
   const auto refused = [&](const std::string& order) {
     const std::string text = folder.inside(refusal([&] { ordered(order, "<wait seconds='1'/>"); }));

@@ -27,7 +27,9 @@ TEST(Blind, AControllerThatClaimsTruthIsRefused) {
   EXPECT_EQ(refusal<Pose>("robot/a/pose"),
             "world.xml:2:1: test.peeker (test.peeker): claims \"robot/a/pose\", which is truth; a controller knows "
             "what its robot senses: "
-            "expected one of robot/command, robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
+            "expected in its place read<Odometry>(\"robot/{robot}/odometry\"), or "
+            "read<Position3d>(\"robot/{robot}/position3d\") of what flies; or another of robot/command, "
+            "robot/car_command, robot/goal2d, robot/odometry, robot/odometry_reset, "
             "robot/stall, robot/geometry, robot/attitude_thrust, robot/velocity3d, robot/position3d, robot/imu, "
             "robot/gps, scan/message, heard/peer, range/message, image/message, outbox/message, inbox/message");
 }
