@@ -134,8 +134,8 @@ TEST(Replay, WrongRowsAreNamed) {
               HasSubstr(".csv:4:1: robot 'a': time does not rise"));
   EXPECT_THAT(refusal(head + "0,a,0,0,0,0\n1,a,0,0,,0\n"),
               HasSubstr(".csv:3:1: robot 'a': z is given in some rows only"));
-  EXPECT_THAT(refusal(head + "0,a,0,0,0,\n"),
-              HasSubstr(".csv:2:1: robot 'a': has neither yaw nor qw, qx, qy, qz of length 1: it has none of them; expected a column yaw[rad]"));
+  EXPECT_THAT(refusal(head + "0,a,0,0,0,\n"), HasSubstr(".csv:2:1: robot 'a': has neither yaw nor qw, qx, qy, qz of "
+                                                        "length 1: it has none of them; expected a column yaw[rad]"));
   EXPECT_THAT(refusal("t[s],robot,x[m],y[m],qw,qx,qy\n0,a,0,0,1,0,0\n"), HasSubstr("of length 1: qz is missing"));
   EXPECT_THAT(refusal("t[s],robot,x[m],y[m],qw,qx,qy,qz\n0,a,0,0,0,0,0,0\n"),
               HasSubstr("of length 1: its length is 0"));
