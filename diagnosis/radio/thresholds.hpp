@@ -150,6 +150,11 @@ inline constexpr std::size_t most_clusters = 140;
 
 // causes
 
+// places; of both ends, below which no carrier is sought, but that of the world held; chosen;
+// Survey.OutliersInANetworkThatStands
+inline constexpr std::size_t fewest_carrier_places = 50;
+// m; within which two of these are one; chosen; none
+inline constexpr double carrier_place = 0.1;
 // factor; by which residuals exceed the simulated scatter for the map's own parameters to be used; chosen;
 // SealedSwap.IsNamedThoughItBendsAllParameters
 inline constexpr double much_more = 1.5;

@@ -1,8 +1,11 @@
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/causes/place_axes.hpp"
@@ -59,13 +62,31 @@ std::vector<CauseRow> LinkCauseDomain::rows_for(const Cause& cause) const {
 
 std::string LinkCauseDomain::why_no_rows(const Cause& cause) const { return diagnosis::why_no_rows(cause); }
 
-// Fixes headings that are not free at the direction of the plan, and carriers at that of the world where it has one.
+// True if the readings are of enough places to tell a carrier: a wave of any length bends to a few.
+bool LinkCauseDomain::tells_carrier() const {
+  using Cell = std::array<long, 3>;
+  const auto cell_of = [](const End& e) {
+    const auto part = [](double x) { return std::lround(x / thresholds::carrier_place); };
+    return Cell{part(e.x), part(e.y), part(e.z)};
+  };
+  std::set<std::pair<Cell, Cell>> links;
+  for (const Index i : used_) {
+    const auto& [tx, rx] = model_.ends()[static_cast<std::size_t>(i)];
+    links.insert(std::minmax({cell_of(tx), cell_of(rx)}));
+    if (links.size() >= thresholds::fewest_carrier_places) return true;
+  }
+  return false;
+}
+
+// Fixes headings that are not free at the direction of the plan, and carriers: at that which the world writes, or at
+// the default of one of its terms where the readings could tell none.
 void LinkCauseDomain::hold(CauseShape& shape) const {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
     const muster_param& p = shape.cause.plugin->params[k];
     if ((p.flags & MUSTER_CYCLIC) && !(p.flags & MUSTER_FREE)) shape.held[p.name] = geometry_.plan_angle;
     if (std::string_view(p.unit) != "Hz") continue;
-    if (const auto carrier = model_.frequency()) shape.held[p.name] = *carrier;
+    if (const auto carrier = model_.carrier(); carrier && (carrier->is_written || !tells_carrier()))
+      shape.held[p.name] = carrier->frequency;
   }
 }
 

@@ -28,6 +28,7 @@ class LinkCauseDomain : public CauseDomain {
   void finish(const std::shared_ptr<const CauseShape>& shape, inference::Candidate& out) const override;
 
  private:
+  bool tells_carrier() const;
   std::size_t given_sizes(const CauseShape& shape) const;
   double charge_of(const CauseShape& shape, const inference::Candidate& c) const;
   void believe_in_map(const CauseShape& shape, inference::Candidate& c) const;

@@ -143,17 +143,19 @@ std::vector<std::string> LinkModel::added_radios() const {
   return result;
 }
 
-std::optional<double> LinkModel::frequency() const {
+std::optional<LinkModel::Carrier> LinkModel::carrier() const {
+  std::optional<Carrier> result;
   for (const auto& instance : simulation().instances()) {
     const muster_plugin& plugin = instance->plugin();
     const int at = plugin.phase == MUSTER_RADIO ? instance->find_param("frequency") : -1;
+    if (at < 0 || std::string_view(plugin.params[at].unit) != "Hz") continue;
     const auto& given = instance->declared().attributes;
-    const bool is_given =
+    const bool is_written =
         std::any_of(given.begin(), given.end(), [](const XmlAttribute& a) { return a.name == "frequency"; });
-    if (at >= 0 && is_given && std::string_view(plugin.params[at].unit) == "Hz")
-      return instance->params()[static_cast<std::size_t>(at)];
+    if (!result || is_written) result = {instance->params()[static_cast<std::size_t>(at)], is_written};
+    if (is_written) break;
   }
-  return {};
+  return result;
 }
 
 std::optional<End> LinkModel::first_end(const std::string& radio) const {

@@ -33,8 +33,13 @@ class LinkModel : public MeasuredWorld {
   std::string radio_name(int radio) const;
   // Radios of the readings that the world lacks and that were added to it; no cause concerns them.
   std::vector<std::string> added_radios() const;
-  // Carrier of the channel, Hz; nothing if the world writes none: the default of a term says nothing of the data.
-  std::optional<double> frequency() const;
+  // Carrier of the channel: what a term of the world writes, or else the default of one, which says nothing of the
+  // data.
+  struct Carrier {
+    double frequency = 0;  // Hz
+    bool is_written = false;
+  };
+  std::optional<Carrier> carrier() const;
   // The first end of a radio in the data; nothing for a radio without a reading.
   std::optional<End> first_end(const std::string& radio) const;
   std::set<std::string> link_of(int one, int other) const;  // names of both, in either direction

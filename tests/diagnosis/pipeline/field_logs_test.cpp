@@ -182,10 +182,11 @@ TEST(Carrier, IsSoughtWhereTheWorldHasNone) {
   // The default of a term says nothing of the data; what is written is held.
   const auto carrier_with = [&](const std::string& written) {
     return LinkModel(world_of(scratch, "faded.xml", radios + "<radio.fading" + written + "/>"), data, plugins)
-        .frequency();
+        .carrier();
   };
-  EXPECT_EQ(carrier_with(""), std::nullopt);
-  EXPECT_EQ(carrier_with(" frequency=\"4.33e8\""), 4.33e8);
+  EXPECT_FALSE(carrier_with("")->is_written);
+  EXPECT_TRUE(carrier_with(" frequency=\"4.33e8\"")->is_written);
+  EXPECT_EQ(carrier_with(" frequency=\"4.33e8\"")->frequency, 4.33e8);
 }
 
 // Nothing but a field that the world does not state: that is said, and the world is not called adequate.
