@@ -8,6 +8,7 @@
 #include "host.hpp"
 #include "instance_doubts.hpp"
 #include "loader/float_guard.hpp"
+#include "needed_attribute.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_file/params.hpp"
@@ -73,12 +74,7 @@ std::string Instance::title() const {
          (declared_.needed_by.empty() ? declared_.plugin : "needed by " + declared_.needed_by) + ')';
 }
 
-int Instance::find_param(const std::string& param) const {
-  for (uint32_t i = 0; i < plugin_->param_count; ++i) {
-    if (param == plugin_->params[i].name) return static_cast<int>(i);
-  }
-  return -1;
-}
+int Instance::find_param(const std::string& param) const { return muster::find_param(*plugin_, param); }
 
 int Instance::bound_row() const {
   const int param = find_param("robot");

@@ -19,13 +19,6 @@ constexpr double rounding = 1e-9;  // of a period that is meant to be one tick
 constexpr std::pair<std::string_view, std::string_view> orders[] = {
     {"min_", "max_"}, {"slowest", "fastest"}, {"least", "most"}, {"start", "until"}};
 
-int find_param(const muster_plugin& plugin, const std::string& name) {
-  for (uint32_t i = 0; i < plugin.param_count; ++i) {
-    if (name == plugin.params[i].name) return static_cast<int>(i);
-  }
-  return -1;
-}
-
 std::string with_unit(double value, const muster_param& declared) {
   return print_real(value) + (*declared.unit ? ' ' + std::string(declared.unit) : "");
 }

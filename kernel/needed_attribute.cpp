@@ -12,14 +12,14 @@ namespace {
 constexpr std::string_view only_clause = "; only ", with_clause = "with ", without_clause = "without ",
                            below_clause = " below ";
 
-int number_in(const muster_plugin& plugin, const std::string& name) {
+}  // namespace
+
+int find_param(const muster_plugin& plugin, const std::string& name) {
   for (uint32_t i = 0; i < plugin.param_count; ++i) {
     if (name == plugin.params[i].name) return static_cast<int>(i);
   }
   return -1;
 }
-
-}  // namespace
 
 std::string condition_in(std::string_view help) {
   const auto at = help.rfind(only_clause);
@@ -42,7 +42,7 @@ Needed::Needed(const std::string& condition, const muster_plugin& plugin) {
     rest.resize(equals);
   }
   name_ = rest;
-  const int number = number_in(plugin, name_);
+  const int number = find_param(plugin, name_);
   if (number < 0) return;
   is_flag_ = plugin.params[number].kind == MUSTER_FLAG;
   is_number_ = plugin.params[number].kind == MUSTER_REAL || plugin.params[number].kind == MUSTER_INTEGER;
@@ -50,7 +50,7 @@ Needed::Needed(const std::string& condition, const muster_plugin& plugin) {
 
 bool Needed::holds(const muster_plugin& plugin, const std::vector<double>& values,
                    const InstanceDeclaration& declared) const {
-  const int number = number_in(plugin, name_);
+  const int number = find_param(plugin, name_);
   if (number < 0) return true;
   const muster_param& param = plugin.params[number];
   const double value = values[static_cast<std::size_t>(number)];

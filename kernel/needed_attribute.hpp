@@ -15,6 +15,9 @@
 
 namespace muster {
 
+// Place of a parameter among those of the plugin; -1: it has none of this name.
+int find_param(const muster_plugin& plugin, const std::string& name);
+
 // "with model=\"disc\"" of a help that ends in such a clause; "" of any other.
 std::string condition_in(std::string_view help);
 

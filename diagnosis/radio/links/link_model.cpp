@@ -149,9 +149,7 @@ std::optional<LinkModel::Carrier> LinkModel::carrier() const {
     const muster_plugin& plugin = instance->plugin();
     const int at = plugin.phase == MUSTER_RADIO ? instance->find_param("frequency") : -1;
     if (at < 0 || std::string_view(plugin.params[at].unit) != "Hz") continue;
-    const auto& given = instance->declared().attributes;
-    const bool is_written =
-        std::any_of(given.begin(), given.end(), [](const XmlAttribute& a) { return a.name == "frequency"; });
+    const bool is_written = instance->declared().attribute("frequency") != nullptr;
     if (!result || is_written) result = {instance->params()[static_cast<std::size_t>(at)], is_written};
     if (is_written) break;
   }
