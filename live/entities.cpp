@@ -128,6 +128,14 @@ Value SimulationInterfaces::state_of(const std::string& entity) const {
   return state;
 }
 
+std::string SimulationInterfaces::description_of(const std::string& entity) const {
+  const Set& robots = *control_.run().board().find_set("robot");
+  const std::string& like = robots.names[robots.like[static_cast<std::size_t>(robots.find(entity))]];
+  const auto& texts = control_.run().world().texts;
+  const auto model = texts.find("robot/" + like + "/model");
+  return "robot" + (model == texts.end() ? "" : ", model " + model->second);
+}
+
 void SimulationInterfaces::get_entities(const Value& request, const Answer& answer) {
   bool is_answered = false;
   const auto names = matching(request["filters"], answer, is_answered);
@@ -151,13 +159,8 @@ void SimulationInterfaces::get_entities_states(const Value& request, const Answe
 void SimulationInterfaces::get_entity_info(const Value& request, const Answer& answer) {
   const auto entity = request["entity"].get<std::string>();
   if (!is_there(entity, answer)) return;
-  const Set& robots = *control_.run().board().find_set("robot");
-  const std::string& like = robots.names[robots.like[static_cast<std::size_t>(robots.find(entity))]];
-  const auto& texts = control_.run().world().texts;
-  const auto model = texts.find("robot/" + like + "/model");
   Value given = outcome(ok);
-  given["info"] = {{"category", {{"category", category_robot}}},
-                   {"description", "robot" + (model == texts.end() ? "" : ", model " + model->second)}};
+  given["info"] = {{"category", {{"category", category_robot}}}, {"description", description_of(entity)}};
   answer(given);
 }
 
@@ -196,6 +199,30 @@ void SimulationInterfaces::set_entity_state(const Value& request, const Answer& 
   run.note("robot " + quote(entity) + " is set" + (has_pose ? " to the pose" + printed(pose) : "") +
            (has_pose && has_twist ? " and" : "") + (has_twist ? " to the twist" + printed(twist) : ""));
   answer(outcome(ok));
+}
+
+// What SpawnEntity can copy. A box is given where the run has the boxes of its robots (robots.geometry).
+void SimulationInterfaces::get_spawnables(const Value& request, const Answer& answer) {
+  const Simulation& run = control_.run();
+  std::string elsewhere;
+  for (const auto& source : request["sources"]) elsewhere += ' ' + quote(source.get<std::string>());
+  Value given = outcome(
+      ok,
+      elsewhere.empty() ? "" : "only robots of this run can be spawned; these sources are not searched:" + elsewhere);
+  given["spawnables"] = Value::array();
+  for (const auto& name : entities()) {
+    Value one{{"uri", copied + name}, {"description", description_of(name)}};
+    if (run.board().find("robot/*/geometry")) {
+      const TableView box = run.table("robot/" + name + "/geometry");  // its middle, its size
+      const auto corner = [&](double side) {
+        return vector(box.at(0, 0) + side * box.at(0, 3) / 2, box.at(0, 1) + side * box.at(0, 4) / 2,
+                      box.at(0, 2) + side * box.at(0, 5) / 2);
+      };
+      one["spawn_bounds"] = {{"type", bounds_box}, {"points", {corner(1), corner(-1)}}};
+    }
+    given["spawnables"].push_back(one);
+  }
+  answer(given);
 }
 
 // A copy of a robot, with its radio; nobody commands it.

@@ -23,14 +23,14 @@ const std::string entity_state =
     MUSTER_MSG("geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n" MUSTER_MSG(
         "geometry_msgs/Twist") "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n" MUSTER_MSG(
         "geometry_msgs/Accel") "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n";
+const std::string bounds =
+    MUSTER_MSG("simulation_interfaces/Bounds") "uint8 type\ngeometry_msgs/Vector3[] points\n" MUSTER_MSG(
+        "geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n";
 const std::string filters =
     MUSTER_MSG("simulation_interfaces/EntityFilters")
         "string filter\nsimulation_interfaces/EntityCategory[] categories\nsimulation_interfaces/TagsFilter tags\n"
         "simulation_interfaces/Bounds bounds\n" +
-    category +
-    MUSTER_MSG("simulation_interfaces/TagsFilter") "string[] tags\nuint8 filter_mode\n" MUSTER_MSG(
-        "simulation_interfaces/Bounds") "uint8 type\ngeometry_msgs/Vector3[] points\n" MUSTER_MSG(
-        "geometry_msgs/Vector3") "float64 x\nfloat64 y\nfloat64 z\n";
+    category + MUSTER_MSG("simulation_interfaces/TagsFilter") "string[] tags\nuint8 filter_mode\n" + bounds;
 const std::string only_result = "simulation_interfaces/Result result\n" + result_type;
 
 }  // namespace
@@ -78,22 +78,25 @@ const std::vector<Interface>& interfaces() {
            time_and_header + pose,
        "simulation_interfaces/Result result\nstring entity_name\n" + result_type},
       {"DeleteEntity", "string entity\n", only_result},
+      {"GetSpawnables", "string[] sources\n",
+       "simulation_interfaces/Result result\nsimulation_interfaces/Spawnable[] spawnables\n" + result_type +
+           MUSTER_MSG("simulation_interfaces/Spawnable") "string uri\nstring description\n"
+                                                         "simulation_interfaces/Bounds spawn_bounds\n" +
+           bounds},
   };
   return known;
 }
 
 const std::vector<Lacking>& lacking_interfaces() {
-  static const std::vector<Lacking> known{
-      {"GetAvailableWorlds", "a run has the one world that it was started with"},
-      {"GetCurrentWorld", "the world's name is in serverInfo of the websocket"},
-      {"GetEntityBounds", "bounds of robots are in the table robot/*/geometry"},
-      {"GetNamedPoseBounds", "worlds have no named poses"},
-      {"GetNamedPoses", "worlds have no named poses"},
-      {"GetSpawnables", "every robot of the world can be copied: its uri is muster:robot/NAME"},
-      {"LoadWorld", "a run has the one world that it was started with"},
-      {"SetEntityInfo", "what a robot is, is in the world file"},
-      {"SpawnEntities", "SpawnEntity spawns one robot"},
-      {"UnloadWorld", "a run has the one world that it was started with"}};
+  static const std::vector<Lacking> known{{"GetAvailableWorlds", "a run has the one world that it was started with"},
+                                          {"GetCurrentWorld", "the world's name is in serverInfo of the websocket"},
+                                          {"GetEntityBounds", "bounds of robots are in the table robot/*/geometry"},
+                                          {"GetNamedPoseBounds", "worlds have no named poses"},
+                                          {"GetNamedPoses", "worlds have no named poses"},
+                                          {"LoadWorld", "a run has the one world that it was started with"},
+                                          {"SetEntityInfo", "what a robot is, is in the world file"},
+                                          {"SpawnEntities", "SpawnEntity spawns one robot"},
+                                          {"UnloadWorld", "a run has the one world that it was started with"}};
   return known;
 }
 

@@ -48,6 +48,7 @@ enum Feature : std::uint16_t {  // simulation_interfaces/msg/SimulatorFeatures
   entity_state_getting = 10,
   entity_state_setting = 11,
   entity_info_getting = 12,
+  spawnables = 14,
   simulation_reset = 20,
   simulation_reset_spawned = 23,
   simulation_state_getting = 24,
@@ -65,6 +66,7 @@ enum Scope : std::uint8_t {  // simulation_interfaces/srv/ResetSimulation
   scope_all = 255
 };
 
+inline constexpr std::uint8_t bounds_box = 0;      // simulation_interfaces/msg/Bounds
 inline constexpr std::uint8_t category_robot = 2;  // simulation_interfaces/msg/EntityCategory
 
 }  // namespace muster::live

@@ -32,7 +32,8 @@ SimulationInterfaces::SimulationInterfaces(RunControl& control) : control_(contr
                                                         {"GetEntityState", &Here::get_entity_state},
                                                         {"SetEntityState", &Here::set_entity_state},
                                                         {"SpawnEntity", &Here::spawn},
-                                                        {"DeleteEntity", &Here::remove}};
+                                                        {"DeleteEntity", &Here::remove},
+                                                        {"GetSpawnables", &Here::get_spawnables}};
   for (const Interface& one : interfaces()) {
     const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const auto& v) { return v.first == one.name; });
     services_.push_back({'/' + prefix + one.name, prefix + "srv/" + one.name, one.request, one.response});
@@ -86,8 +87,8 @@ void SimulationInterfaces::get_features(const Value&, const Answer& answer) {
   answer({{"features",
            {{"features",
              {spawning, deleting, entity_categories, entity_state_getting, entity_state_setting, entity_info_getting,
-              simulation_reset, simulation_reset_spawned, simulation_state_getting, simulation_state_setting,
-              simulation_state_pause, step_simulation_single, step_simulation_multiple}},
+              spawnables, simulation_reset, simulation_reset_spawned, simulation_state_getting,
+              simulation_state_setting, simulation_state_pause, step_simulation_single, step_simulation_multiple}},
             {"spawn_formats", {"muster"}},
             {"custom_info", "muster: entities are robots; the uri muster:robot/NAME is a copy of that robot"}}}});
 }

@@ -41,11 +41,13 @@ class SimulationInterfaces : public Services {
   void set_entity_state(const Value& request, const Answer& answer);
   void spawn(const Value& request, const Answer& answer);
   void remove(const Value& request, const Answer& answer);
+  void get_spawnables(const Value& request, const Answer& answer);
 
   bool is_there(const std::string& entity, const Answer& answer);
   std::vector<std::string> entities() const;
   std::vector<std::string> matching(const Value& filters, const Answer& answer, bool& is_answered) const;
   Value state_of(const std::string& entity) const;
+  std::string description_of(const std::string& entity) const;
   void remove_spawned(const std::string& entity);
 
   RunControl& control_;

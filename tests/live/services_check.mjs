@@ -1,7 +1,7 @@
 // The verbs of simulation_interfaces, by HTTP and by the websocket: what they do to a run, held against runs without them.
 // usage: node services_check.mjs MUSTER WORLD FOLDER; exit code 77: skipped, with the reason
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, rmSync} from 'node:fs';
+import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {asked, connected, end, expect, expect_equal, expect_same, folder, logged, muster, needed, until, watched, world} from './watched_run.mjs';
 
@@ -126,7 +126,7 @@ async function check_poses() {
 async function check_entities() {
   const run = await watched(world, ...span, '--paused'), {address} = run;
   const {features} = await call(address, 'GetSimulatorFeatures');
-  expect_equal(features.features.join(), '0,1,8,10,11,12,20,23,24,25,26,31,32', 'the features');
+  expect_equal(features.features.join(), '0,1,8,10,11,12,14,20,23,24,25,26,31,32', 'the features');
   const names = async (filters) => (await call(address, 'GetEntities', {filters})).entities.join();
   expect_equal(await names({}), 'east,north,rover-2', 'the entities');
   expect_equal(await names({filter: '^(east|rover-[0-9])$'}), 'east,rover-2', 'entities by an expression');
@@ -140,6 +140,10 @@ async function check_entities() {
   expect_equal(info.category.category, 2, 'the category of a robot');
   await expect_code(address, 'GetEntityInfo', {entity: 'wall'}, NOT_FOUND);
   for (const service of ['LoadWorld', 'UnloadWorld', 'SpawnEntities', 'GetNamedPoses']) await expect_code(address, service, {any: 1}, UNSUPPORTED, /./);
+
+  const listed = await call(address, 'GetSpawnables', {sources: ['file:///models']});
+  expect_equal(listed.spawnables.map(({uri}) => uri).join(), 'muster:robot/east,muster:robot/north,muster:robot/rover-2', 'what can be spawned');
+  expect(listed.result.result === OK && /"file:\/\/\/models"/.test(listed.result.error_message), `a source that is not searched: ${JSON.stringify(listed.result)}`);
 
   // A copy of a robot with its radio: it is heard, it takes part, it leaves.
   const spawn = {name: 'guest', entity_resource: {uri: 'muster:robot/east'}, initial_pose: {pose: {position: {x: -3, y: 2}}}};
@@ -171,7 +175,7 @@ async function check_websocket() {
   const run = await watched(world, ...span, '--paused'), {address} = run;
   const client = connected(address);
   await client.ready;
-  await until(() => client.services.length === 12, 'services are advertised');
+  await until(() => client.services.length === 13, 'services are advertised');
   expect(client.info.capabilities.includes('services') && client.info.supportedEncodings.join() === 'cdr,json', `serverInfo is ${JSON.stringify(client.info)}`);
   let next = 1;
   const ask = (name, encoding, payload) => new Promise((done) => {
@@ -195,7 +199,7 @@ async function check_websocket() {
     expect_equal((await by('StepSimulation', {steps: by === cdr ? 3n : 3})).result.result, OK, `StepSimulation by ${by.name}`);
     expect_equal(await tick(address), before + 3, `ticks by ${by.name}`);
     expect_equal((await by('GetSimulationState', {})).state.state, PAUSED, `the state by ${by.name}`);
-    expect_equal([...(await by('GetSimulatorFeatures', {})).features.features].join(), '0,1,8,10,11,12,20,23,24,25,26,31,32', `features by ${by.name}`);
+    expect_equal([...(await by('GetSimulatorFeatures', {})).features.features].join(), '0,1,8,10,11,12,14,20,23,24,25,26,31,32', `features by ${by.name}`);
     const filters = {filter: 'r', categories: [{category: 2}], tags: {tags: [], filter_mode: 0}, bounds: {type: 0, points: []}};
     const {entities, states} = await by('GetEntitiesStates', {filters});
     expect_equal(entities.join(), 'north,rover-2', `entities by ${by.name}`);
@@ -203,6 +207,7 @@ async function check_websocket() {
     expect_equal(states[0].pose.position.x, state.pose.position.x, `a pose by ${by.name}`);
     expect_equal(states[0].twist.angular.z, state.twist.angular.z, `a twist by ${by.name}`);
     expect_equal((await by('GetEntityState', {entity: 'nobody'})).result.result, NOT_FOUND, `a robot that is not, by ${by.name}`);
+    expect_equal((await by('GetSpawnables', {sources: []})).spawnables[1].uri, 'muster:robot/north', `what can be spawned by ${by.name}`);
   }
   const failed = async (encoding, payload, words) => {
     const answer = await ask('StepSimulation', encoding, () => new TextEncoder().encode(payload));
@@ -225,9 +230,24 @@ async function check_websocket() {
   await quit(run);
 }
 
+/** Where a run has the boxes of its robots, what can be spawned is told with its own. */
+async function check_boxes() {
+  const file = join(folder, 'boxes.xml');
+  writeFileSync(file, '<world name="boxes" dt="0.02" until="1"><robot name="rover" model="scarab" at="1 2 0"/><robots.geometry/></world>');
+  const run = await watched(file, '--paused'), {address} = run;
+  await expect_code(address, 'StepSimulation', {steps: 1}, OK);
+  const [{description, spawn_bounds: {type, points: [upper, lower]}}] = (await call(address, 'GetSpawnables')).spawnables;
+  expect(/model scarab/.test(description), `the description is ${description}`);
+  expect_equal(type, 0, 'the kind of bounds, a box');
+  // About the robot's own origin: wider than nothing, no wider than a man is tall, as broad to the left as to the right.
+  expect(upper.x > 0 && upper.x < 1 && lower.x < 0 && Math.abs(upper.y + lower.y) < 1e-6, `the box is ${JSON.stringify([upper, lower])}`);
+  await quit(run);
+}
+
 await check_states();
 await check_reset();
 await check_poses();
 await check_entities();
+await check_boxes();
 await check_websocket();
 end('the verbs do what they say');
