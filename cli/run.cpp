@@ -17,6 +17,7 @@
 #include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
+#include "saved_run.hpp"
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -31,7 +32,7 @@ struct RunWords : RunOptions {
   std::string world, save, restore;
   uint64_t digest_every = 0;
   bool watch = false, expected = false, real_time = false, cost = false;
-  std::optional<std::string> speed;
+  std::optional<std::string> speed, save_every;
   bool view = false;
   ViewSettings view_at;
   PluginChange swap;  // of the verb swap
@@ -44,6 +45,8 @@ void declare(CommandLine& line, RunWords& words) {
   declare(line, static_cast<RunOptions&>(words));
   declare(line, words.log);
   line.option("--save", words.save, "write the state at the end to this file");
+  line.option("--save-every", words.save_every,
+              "with --save: also on the way, each time so many seconds of the run have passed");
   line.option("--restore", words.restore,
               "begin from a state that --save wrote; a --seed beside it counts from there on");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks").at_least(1);
@@ -60,7 +63,8 @@ void declare(CommandLine& line, RunWords& words) {
               "with --view: a site whose page may watch, such as https://app.foxglove.dev")
       .one_word_each();
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
-  line.void_beside("--expected", {"--until", "--digest-every", "--watch", "--real-time", "--speed"}, "runs no tick");
+  line.void_beside("--expected", {"--until", "--digest-every", "--save-every", "--watch", "--real-time", "--speed"},
+                   "runs no tick");
 }
 
 // Loads plugins again whose files have changed since the last look.
@@ -228,6 +232,7 @@ World asked_world(RunWords& words) {
 // The run from its start to its end. False: a client wants it anew.
 bool run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
   const auto& records = world.records;
+  const SavedRun saved(words.save, words.save_every, world.dt);
   Options options{plugin_path(words.plugins), words.workers, {}};
   options.costs = words.cost;
   Simulation run(world, standard(), std::move(options));
@@ -290,7 +295,7 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
       for (auto& file : log->close(run)) files.push_back(std::move(file));
       for (const auto& note : log->notes()) fmt::print(stderr, "muster: note: {}\n", note);
     }
-    if (!words.save.empty()) run.snapshot().save(words.save), files.emplace_back(words.save);
+    if (saved.at_end(run)) files.emplace_back(words.save);
     return files;
   };
   try {
@@ -309,6 +314,7 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
         digests.emplace_back(run.tick(), run.digest());
         if (!words.json) fmt::print("{} {}\n", run.tick(), hexadecimal(digests.back().second));
       }
+      saved.after_tick(run);
       if (view) view->after_tick();
       if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));

@@ -1,0 +1,31 @@
+#include "saved_run.hpp"
+
+#include <utility>
+
+#include "run_options.hpp"
+#include "text/number.hpp"
+
+namespace muster::cli {
+
+SavedRun::SavedRun(std::string file, const std::optional<std::string>& every, double dt) : file_(std::move(file)) {
+  if (!every) return;
+  if (file_.empty())
+    throw Error(Exit::invalid_input, "--save-every needs --save FILE beside it, into which the state is written");
+  const double seconds = real_of(*every, "--save-every", "s");
+  if (!(seconds >= dt))
+    throw Error(Exit::invalid_input, "--save-every: " + *every + " s is less than a tick of " + print_real(dt) +
+                                         " s; expected at least that");
+  every_ = ticks_of(seconds, dt, {"--save-every"});
+}
+
+void SavedRun::after_tick(const Simulation& run) const {
+  if (every_ > 0 && run.tick() % every_ == 0 && !run.done()) run.snapshot().save(file_);
+}
+
+bool SavedRun::at_end(const Simulation& run) const {
+  if (file_.empty()) return false;
+  run.snapshot().save(file_);
+  return true;
+}
+
+}  // namespace muster::cli
