@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "diagnosis/report/fit_report.hpp"
+#include "diagnosis/report/noise_report.hpp"
 #include "verbs.hpp"
 #include "written_files.hpp"
 
@@ -13,7 +14,7 @@ namespace muster::cli {
 namespace {
 
 struct Words {
-  std::string world, data, out, average = "dB", log = "10";
+  std::string world, data, table, out, average = "dB", log = "10";
   std::vector<std::string> free, fix, plugins;
   double cell = 0.25;
   int least = 5;
@@ -30,6 +31,8 @@ Words words_of(const Arguments& arguments) {
   Words words;
   line.option("world", words.world, "the world's folder or file").required();
   line.option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)").required();
+  line.option("--table", words.table,
+              "the data are rows of this table, such as 'robot/*/odometry': fits the standard deviations of its noise");
   line.option("--free", words.free, "a parameter to fit beyond those declared free, such as radio.multiwall/tx_power");
   line.option("--fix", words.fix, "a parameter to hold: PATH, or PATH=VALUE");
   line.option("--cell", words.cell, "size of the cells that are averaged, in m").within(0.01, 100.0).shows_default();
@@ -41,6 +44,7 @@ Words words_of(const Arguments& arguments) {
   line.option("--out", words.out, "a folder for pictures");
   line.option("--plugins", words.plugins, "a folder of plugins, looked in first");
   line.flag("--json", words.json, "print the result as JSON");
+  line.void_beside("--table", {"--cell", "--least", "--average", "--log", "--out"}, "reads no levels of links");
   line.parse(arguments);
   WrittenFiles::writes_folder(words.out, "--out");
   return words;
@@ -101,11 +105,23 @@ void print_natural(const std::vector<NaturalExponent>& exponents) {
         n.path, n.value, n.lower95, n.upper95, n.reach, n.mistaken);
 }
 
+int fit_noise(const Words& words) {
+  const World world = read_world(words.world, standard());
+  Options options{plugin_path(words.plugins), 1, {}};
+  const auto fit = diagnosis::fit_noise(world, options, words.table, words.data, {words.free, words.fix});
+  if (words.json)
+    fmt::print("{}\n", report::json_of(fit).dump(2));
+  else
+    report::print(fit, words.table, words.data);
+  return static_cast<int>(Exit::done);
+}
+
 }  // namespace
 
 int run_fit(const Arguments& arguments) {
   const Words words = words_of(arguments);
   refuse_exchanged(words);
+  if (!words.table.empty()) return fit_noise(words);
   Progress progress("fit");
   progress.at(0);
   const diagnosis::CellOptions cells{words.cell, words.least,

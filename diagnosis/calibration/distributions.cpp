@@ -14,6 +14,13 @@ double student_tail(double freedom, double x) {
   return boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), x));
 }
 
+// A chi-square is twice a gamma value of half its freedom.
+double chi_square_tail(double freedom, double x) { return boost::math::gamma_q(freedom / 2, x / 2); }
+
+double chi_square_quantile(double freedom, double probability) {
+  return 2 * boost::math::gamma_p_inv(freedom / 2, probability);
+}
+
 // As many arrivals come in a time of `mean` where the waiting time for the last, of a gamma distribution, is shorter.
 double poisson_tail(double mean, int count) { return boost::math::gamma_p(count, mean); }
 

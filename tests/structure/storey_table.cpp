@@ -55,6 +55,9 @@ const Storeys& storeys() {
       {"diagnosis/calibration",
        {"plugin_api", "text", "plotting", "diagnosis/inference/noise", "diagnosis/data", "diagnosis/prediction",
         "diagnosis/radio/thresholds", "diagnosis/radio/links"}},
+      // Runs of a world against recorded tables.
+      {"diagnosis/replicates",
+       {"plugin_api", "text", "kernel", "world_file", "diagnosis/prediction", "diagnosis/calibration"}},
       {"diagnosis/result", {"text", "diagnosis/inference/*", "diagnosis/radio/links"}},
       {"diagnosis/radio/causes",
        {"plugin_api", "text", "kernel", "diagnosis/inference/*", "diagnosis/data", "diagnosis/prediction",
@@ -71,7 +74,8 @@ const Storeys& storeys() {
         "diagnosis/planning"}},
       {"diagnosis/report",
        {"plugin_api", "text", "kernel", "plotting", "diagnosis/result", "diagnosis/inference/*", "diagnosis/data",
-        "diagnosis/prediction", "diagnosis/radio/*", "diagnosis/calibration", "diagnosis/pipeline"}},
+        "diagnosis/prediction", "diagnosis/radio/*", "diagnosis/calibration", "diagnosis/replicates",
+        "diagnosis/pipeline"}},
 
       // A run as one page.
       {"viewer", {"plugin_api", "text", "kernel", "description"}},
