@@ -32,13 +32,13 @@ struct Sums {
 
 void check_size(const std::vector<CheckedPiece>& pieces, NoiseCheck& one) {
   std::vector<double> variances;
-  for (const auto& piece : pieces) variances.push_back(piece.variance);
+  for (const auto& piece : pieces) variances.push_back(piece.split);
   const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
   std::nth_element(variances.begin(), middle, variances.end());
   Sums all, quiet, loud;
   for (const auto& piece : pieces) {
     all.add(piece);
-    (piece.variance < *middle ? quiet : loud).add(piece);
+    (piece.split < *middle ? quiet : loud).add(piece);
   }
   const auto n = static_cast<double>(pieces.size());
   one.measured_sd = std::sqrt(all.squares / n);

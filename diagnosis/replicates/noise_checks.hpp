@@ -9,8 +9,10 @@
 namespace muster::diagnosis {
 
 // An error about the run without noise, the variance that the fitted noise gives it, and the piece of that run.
+// `split`: that variance by other runs, or else the pieces whose draws were small by chance would be those with little
+// noise.
 struct CheckedPiece {
-  double error = 0, variance = 0, predicted = 0;
+  double error = 0, variance = 0, split = 0, predicted = 0;
   bool follows = false;  // the one before it, in time
 };
 

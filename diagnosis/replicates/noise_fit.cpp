@@ -17,6 +17,13 @@ namespace {
 
 using Values = std::map<std::string, double>;
 
+// Of those that are numbers: a sensor that has not read yet gives none.
+double largest(const Eigen::VectorXd& values) {
+  double result = 0;
+  for (const double value : values) result = std::max(result, std::isnan(value) ? 0 : std::abs(value));
+  return result;
+}
+
 bool contains(const std::vector<std::string>& list, const std::string& path) {
   return std::find(list.begin(), list.end(), path) != list.end();
 }
@@ -55,7 +62,7 @@ class NoiseFitter {
 
   void run_without() {
     without_ = runs_.run(seed(0), at({}));
-    if (const auto again = runs_.run(seed(1), at({})); difference(again).cwiseAbs().maxCoeff() > 0) refuse_drawn();
+    if (largest(difference(runs_.run(seed(1), at({})))) > 0) refuse_drawn();
   }
 
   void find_parameters(const FitOptions& options) {
@@ -86,7 +93,7 @@ class NoiseFitter {
       }
       NoiseParameter p{.path = info.path, .unit = info.declared->unit};
       p.start = info.value > 0 ? info.value : thresholds::noise_start_share * info.declared->max;
-      p.value = p.start;
+      p.value = p.start, p.freedom = 1;
       candidates_.push_back(p);
       most_[p.path] = info.declared->max;
     }
@@ -106,7 +113,7 @@ class NoiseFitter {
     for (const auto& p : candidates_) {
       const Eigen::VectorXd a = runs_.run(seed(0), at({{p.path, p.start}})),
                             b = runs_.run(seed(1), at({{p.path, p.start}}));
-      if (runs_.pieces().difference(a, b).cwiseAbs().maxCoeff() > 0)
+      if (largest(runs_.pieces().difference(a, b)) > 0)
         moved.push_back(p);
       else
         result_.held.push_back(p.path);
@@ -143,7 +150,8 @@ class NoiseFitter {
     const auto& kinds = runs_.pieces().kinds();
     std::vector<double> variance(kinds.size(), 0);
     for (Eigen::Index i = 0; i < without_.size(); ++i)
-      variance[kind_of(i)] += halves_[0].row(i).sum() + halves_[1].row(i).sum();
+      if (const double sum = halves_[0].row(i).sum() + halves_[1].row(i).sum(); !std::isnan(sum))
+        variance[kind_of(i)] += sum;
     is_used_.assign(kinds.size(), 1);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       constexpr double share = thresholds::least_noise_share;
@@ -163,7 +171,7 @@ class NoiseFitter {
     used_.clear();
     result_.noiseless = 0;
     for (Eigen::Index i = 0; i < without_.size(); ++i) {
-      const bool has_noise = halves_[0].row(i).sum() > 0 && halves_[1].row(i).sum() > 0;
+      const bool has_noise = halves_[0].row(i).sum() > 0 && halves_[1].row(i).sum() > 0 && !std::isnan(residual_[i]);
       if (is_used_[kind_of(i)] && has_noise) used_.push_back(i);
       if (is_used_[kind_of(i)] && !has_noise) ++result_.noiseless;
     }
@@ -193,7 +201,7 @@ class NoiseFitter {
     draw();
     find_used();
     const Eigen::VectorXd squares = residual_(used_).cwiseAbs2();
-    const Eigen::MatrixXd all = (halves_[0] + halves_[1]) / 2, shapes = halves_[1](used_, Eigen::all), by = weights();
+    const Eigen::MatrixXd shapes = halves_[1](used_, Eigen::all), by = weights();
     VarianceComponents found = variance_components(squares, shapes, by);
     const Eigen::VectorXd at_fit = (by * found.value).cwiseMax(1e-300);
     const double second = (squares.array() / at_fit.array()).mean();
@@ -201,18 +209,20 @@ class NoiseFitter {
     // Of normal values it lies within two standard errors of 3.
     const double kurtosis = fourth - 2 * std::sqrt(24.0 / static_cast<double>(used_.size()));
     if (kurtosis > 3) found = variance_components(squares, shapes, by, kurtosis);
-    variance_ = all(used_, Eigen::all) * found.value;
+    variance_ = shapes * found.value;
+    split_ = halves_[0](used_, Eigen::all) * found.value;
     double change = 0;
     for (std::size_t k = 0; k < result_.parameters.size(); ++k) {
       auto& p = result_.parameters[k];
       const double before = drawn_[p.path], value = before * std::sqrt(found.value[static_cast<Eigen::Index>(k)]);
+      change = std::max(change, value == 0 && p.freedom == 0 ? 0 : std::abs(value - p.value) / before);
       p.at_bound = value >= most_[p.path];
       p.value = std::min(value, most_[p.path]);
       constexpr double half = thresholds::noise_replicates / 2;
       p.freedom = found.freedom[static_cast<Eigen::Index>(k)] * half / (half + 1);  // the shapes are drawn, too
       p.lower95 = p.freedom > 0 ? p.value * std::sqrt(p.freedom / chi_square_quantile(p.freedom, 0.975)) : 0;
-      p.upper95 = p.freedom > 0 ? p.value * std::sqrt(p.freedom / chi_square_quantile(p.freedom, 0.025)) : p.value;
-      change = std::max(change, std::abs(p.value - before) / before);
+      p.upper95 = p.freedom > 0 ? p.value * std::sqrt(p.freedom / chi_square_quantile(p.freedom, 0.025))
+                                : before * std::sqrt(1.96 * found.stderror[static_cast<Eigen::Index>(k)]);
     }
     return change;
   }
@@ -225,7 +235,8 @@ class NoiseFitter {
       const Eigen::Index piece = used_[i];
       const std::size_t kind = kind_of(piece);
       const bool follows = last[kind] >= 0 && runs_.follows(last[kind], piece);
-      pieces[kind].push_back({residual_[piece], variance_[static_cast<Eigen::Index>(i)], without_[piece], follows});
+      const auto row = static_cast<Eigen::Index>(i);
+      pieces[kind].push_back({residual_[piece], variance_[row], split_[row], without_[piece], follows});
       last[kind] = piece;
     }
     for (std::size_t kind = 0; kind < kinds.size(); ++kind)
@@ -246,7 +257,7 @@ class NoiseFitter {
   Eigen::MatrixXd halves_[2];           // pieces x parameters
   std::vector<char> is_used_;           // of each kind
   std::vector<Eigen::Index> used_;      // pieces
-  Eigen::VectorXd variance_;            // fitted, of the used pieces
+  Eigen::VectorXd variance_, split_;    // fitted, of the used pieces, by the second half of the runs and by the first
 };
 
 }  // namespace

@@ -16,9 +16,11 @@ void find_columns(const TextTable& text, const Table& of_world, std::vector<std:
   std::vector<TextColumn> all;
   for (std::size_t c = 0; c < of_world.width(); ++c) {
     const Column& column = of_world.columns()[c];
-    all.push_back({column.name, column.unit});
-    if (!text.find(column.name)) continue;
-    found.push_back(text.require(column.name, column.unit));
+    // As `run --record` names what would be called like the columns before it.
+    const bool is_taken = column.name == "t" || column.name == of_world.set().name;
+    all.push_back({(is_taken ? of_world.set().name + '_' : "") + column.name, column.unit});
+    if (!text.find(all.back().name)) continue;
+    found.push_back(text.require(all.back().name, column.unit));
     result.columns.push_back(all.back());
     result.cells.push_back(c);
   }
@@ -39,7 +41,7 @@ std::optional<std::vector<double>> yaw_of(const TextTable& text, const Table& of
     return false;
   };
   if (has("yaw") || !has("qw") || text.find("qw") || !text.find("yaw")) return std::nullopt;
-  return text.reals(text.require("yaw", "rad"));
+  return text.reals(text.require("yaw", "rad"), {.empty = true});
 }
 
 void turn_into_quaternions(const std::vector<double>& yaw, const Table& of_world, RecordedTable& result,
@@ -97,20 +99,25 @@ RecordedTable read_recorded(const std::filesystem::path& file, const Table& of_w
     own.push_back(r);
   }
   std::vector<std::vector<double>> values;
-  for (const std::size_t column : found) values.push_back(text.reals(column));
+  for (const std::size_t column : found) values.push_back(text.reals(column, {.empty = true}));
   if (const auto yaw = yaw_of(text, of_world)) turn_into_quaternions(*yaw, of_world, result, values);
   require_heading(text, result);
   for (std::size_t level = 0; level < rows.size(); ++level) {
     RecordedCourse course{names.levels[level], {}, {}};
-    const auto& own = rows[level];
+    std::vector<std::size_t> own;  // rows that lack nothing
+    for (const std::size_t r : rows[level])
+      if (std::none_of(values.begin(), values.end(), [&](const auto& column) { return std::isnan(column[r]); }))
+        own.push_back(r);
+    if (own.size() < 2)
+      throw invalid(
+          text.place(rows[level].front(), row),
+          quote(course.row) + " has " + (own.empty() ? "no sample" : "one sample") + "; expected two or more");
     course.values.resize(static_cast<Eigen::Index>(own.size()), static_cast<Eigen::Index>(values.size()));
     for (std::size_t i = 0; i < own.size(); ++i) {
       course.t.push_back(t[own[i]]);
       for (std::size_t c = 0; c < values.size(); ++c)
         course.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = values[c][own[i]];
     }
-    if (own.size() < 2)
-      throw invalid(text.place(own.front(), row), quote(course.row) + " has one sample; expected two or more");
     result.courses.push_back(std::move(course));
   }
   if (result.courses.empty()) throw invalid({text.file()}, "has no rows; expected samples of " + of_world.name());

@@ -30,7 +30,7 @@ Solved solved(const Eigen::VectorXd& squares, const Eigen::MatrixXd& shapes, con
 VarianceComponents variance_components(const Eigen::VectorXd& squares, const Eigen::MatrixXd& shapes,
                                        const Eigen::MatrixXd& weights, double kurtosis) {
   const Eigen::Index count = shapes.cols();
-  VarianceComponents result{Eigen::VectorXd::Ones(count), Eigen::VectorXd::Zero(count)};
+  VarianceComponents result{Eigen::VectorXd::Ones(count), Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < count; ++k) free.push_back(k);
   constexpr int rounds = 30;
@@ -44,6 +44,7 @@ VarianceComponents variance_components(const Eigen::VectorXd& squares, const Eig
     for (std::size_t i = 0; i < free.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       next[free[i]] = std::max(0.0, now.value[k]);
+      result.stderror[free[i]] = std::sqrt(now.covariance(k, k));
       result.freedom[free[i]] = now.value[k] > 0 ? 2 * now.value[k] * now.value[k] / now.covariance(k, k) : 0;
       if (now.value[k] > 0) left.push_back(free[i]);
     }

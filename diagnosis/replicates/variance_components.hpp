@@ -7,7 +7,8 @@
 namespace muster::diagnosis {
 
 struct VarianceComponents {
-  Eigen::VectorXd value;    // of each component, times its shape the variance; not below 0
+  Eigen::VectorXd value;  // of each component, times its shape the variance; not below 0
+  Eigen::VectorXd stderror;
   Eigen::VectorXd freedom;  // of a chi-square with the same mean and variance (Satterthwaite); 0 where value is 0
 };
 

@@ -1,6 +1,7 @@
 // Worlds of one robot whose noise is known, and the logs that they draw.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -34,7 +35,7 @@ inline void log_table(const Folder& folder, Simulation& run, const std::string& 
       for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = view.at(0, c);
       if (change) change(run.time(), cells);
       text += print_real(run.time()) + ",rover";
-      for (const double cell : cells) text += ',' + print_real(cell);
+      for (const double cell : cells) text += std::isnan(cell) ? "," : ',' + print_real(cell);
       text += '\n';
     }
     if (run.done()) break;

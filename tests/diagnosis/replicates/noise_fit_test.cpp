@@ -71,6 +71,29 @@ TEST(NoiseFit, Row32NoiseOfActuationIsFittedFromCommandsAndPoses) {
   EXPECT_THAT(fit.doubts, IsEmpty());
 }
 
+// Values and not increments: a gyroscope and an accelerometer, that read nothing before the second tick.
+TEST(NoiseFit, NoiseOfASensorIsThatOfItsValues) {
+  const Folder folder;
+  const std::string moved = "  <physics.planar/><robots.drive/><control.steady robot=\"rover\" v=\"0.2\" w=\"0.3\"/>";
+  Simulation run(
+      world_in(folder, "drive.xml", moved + "<sensors.imu name=\"imu\" accel_noise=\"0.02\" gyro_noise=\"0.003\"/>"),
+      standard(), running());
+  log_table(folder, run, "imu", "robot_t[s],fx[m/s2],fy[m/s2],fz[m/s2],wx[rad/s],wy[rad/s],wz[rad/s]", 1, "imu.csv");
+  const NoiseFit fit =
+      diagnosis::fit_noise(world_in(folder, "given.xml", moved + "<sensors.imu name=\"imu\"/>"), running(),
+                           "robot/*/imu", folder / "imu.csv", {{}, {"robots.drive/noise", "imu/accel_walk"}});
+  ASSERT_THAT(fit.parameters, SizeIs(3));
+  EXPECT_EQ(fit.parameters[0].path, "imu/accel_noise");
+  EXPECT_NEAR(fit.parameters[0].value, 0.02, 0.001);
+  EXPECT_NEAR(fit.parameters[1].value, 0.003, 0.00015);
+  EXPECT_EQ(fit.parameters[2].path, "imu/gyro_walk");  // which is not there
+  EXPECT_EQ(fit.parameters[2].lower95, 0);
+  EXPECT_GT(fit.parameters[2].upper95, 0);
+  EXPECT_LT(fit.parameters[2].upper95, 0.02);
+  EXPECT_THAT(fit.doubts, IsEmpty());
+  EXPECT_THAT(fit.checks, SizeIs(6));
+}
+
 // Stamps between ticks, and any start that the world has.
 TEST(NoiseFit, DoesNotDependOnTheStart) {
   const Folder folder;

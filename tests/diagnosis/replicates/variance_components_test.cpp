@@ -23,6 +23,7 @@ TEST(VarianceComponents, OfOneIsTheMeanOfStandardisedSquares) {
   const auto found = variance_components(squares, shape, shape);
   EXPECT_NEAR(found.value[0], 2.5 * z.squaredNorm() / static_cast<double>(n), 1e-12);
   EXPECT_NEAR(found.freedom[0], static_cast<double>(n), 1e-9);
+  EXPECT_NEAR(found.stderror[0], found.value[0] * std::sqrt(2 / static_cast<double>(n)), 1e-12);
 }
 
 TEST(VarianceComponents, TwoAreToldApartWithoutBias) {
@@ -57,6 +58,7 @@ TEST(VarianceComponents, OneThatIsNotThereIsZeroAndTheOtherWhole) {
   const auto found = variance_components(squares, shapes, shapes);
   EXPECT_EQ(found.value[1], 0);
   EXPECT_EQ(found.freedom[1], 0);
+  EXPECT_GT(found.stderror[1], 0);  // up to which it may be there
   const auto alone = variance_components(squares, shapes.col(0), shapes.col(0));
   EXPECT_NEAR(found.value[0], alone.value[0], 1e-9);
 }
