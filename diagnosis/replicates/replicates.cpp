@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -38,6 +39,11 @@ Replicates::Replicates(World world, Options options, std::string table, const st
       pieces_(recorded_.columns) {
   if (!options_.tables) options_.tables = std::make_shared<TableCache>();
   for (const auto& instance : at_start_->instances()) options_.libraries.push_back(instance->library());
+  if (const double last = recorded_.last(); last > world_.until() + 1e-9 * world_.dt)
+    throw invalid({recorded_.file}, "goes on until t = " + print_real(last) + " s, and the run ends at " +
+                                        print_real(world_.until()) +
+                                        " s; expected times from the start of the run, or " + "until=\"" +
+                                        print_real(std::ceil(last)) + "\" in the world");
   world_.ticks = static_cast<uint64_t>(std::ceil(recorded_.last() / world_.dt - 1e-9));
   std::vector<Eigen::VectorXd> parts;
   for (const RecordedCourse& course : recorded_.courses) {
@@ -60,13 +66,13 @@ Eigen::VectorXd Replicates::run(uint64_t seed, const std::map<std::string, doubl
   Simulation run(std::move(world), standard(), options_);
   for (const auto& [path, value] : parameters) run.set_parameter(path, value);
 
-  const Table& table = *run.table(table_).table;
   const std::size_t courses = recorded_.courses.size();
   std::vector<Eigen::MatrixXd> samples(courses);
   std::vector<Eigen::RowVectorXd> before(courses), now(courses);
   std::vector<std::size_t> next(courses, 0);
   for (std::size_t i = 0; i < courses; ++i) samples[i].resizeLike(recorded_.courses[i].values);
   const auto look = [&] {
+    const Table& table = *run.table(table_).table;
     for (std::size_t i = 0; i < courses; ++i) {
       const RecordedCourse& course = recorded_.courses[i];
       const auto row = static_cast<std::size_t>(table.set().find(course.row));

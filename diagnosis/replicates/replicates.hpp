@@ -13,7 +13,7 @@ namespace muster::diagnosis {
 
 class Replicates {
  public:
-  // Runs go on until the last recorded time, whatever end the world has. Throws Error.
+  // Runs go on until the last recorded time. Throws Error, also where that is after the end of the world's run.
   Replicates(World world, Options options, std::string table, const std::filesystem::path& data);
 
   const RecordedTable& recorded() const { return recorded_; }
