@@ -14,6 +14,9 @@
 #ifndef TOY_STEP
 #define TOY_STEP
 #endif
+#ifndef TOY_EACH_STEP
+#define TOY_EACH_STEP
+#endif
 #ifndef TOY_DESTROY
 #define TOY_DESTROY
 #endif
@@ -51,8 +54,10 @@ struct Toy {
     if (k.tick() == 5) {
       TOY_STEP;
     }
+    TOY_EACH_STEP;
     k[cell]->value = static_cast<double>(k.tick());
   }
   muster::Out<Cell> cell;
   int kept = 0;
+  mutable int counted = 0;
 };
