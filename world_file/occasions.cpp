@@ -62,6 +62,8 @@ Condition read_condition(const XmlAttribute& given) {
   if (words.back().empty()) words.pop_back();
   const bool is_joined =
       std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "and" || word == "or"; });
+  if (words.size() == 4 && parse_real(words[2]))  // "below -60 dBm"
+    throw refuse(why_not_real(words[2] + ' ' + words[3]) + "; expected a number to compare with");
   if (words.size() != 3)
     throw refuse(quote(given.value) + " is no condition; expected " + a_condition +
                  (is_joined ? "; one comparison in each: \"and\" and \"or\" are not known" : ""));

@@ -42,6 +42,20 @@ std::string corners_hint(const muster_param& declared, std::size_t count, const 
   return "; for the rectangle between these two: corners=\"" + all + '"';
 }
 
+// What was meant, as it is to be typed: `; write at="3 2 0"`.
+std::string as_meant(const XmlAttribute& given, const std::string& value) {
+  return value.empty() ? "" : "; write " + given.name + "=\"" + value + '"';
+}
+
+std::string flag_as_meant(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  for (const char* yes : {"true", "yes", "on", "1", "y", "enabled"})
+    if (word == yes) return "true";
+  for (const char* no : {"false", "no", "off", "0", "n", "disabled"})
+    if (word == no) return "false";
+  return "";
+}
+
 double choice_value(const muster_param& declared, const XmlAttribute& given) {
   const auto words = choices(declared);
   const auto found = std::find(words.begin(), words.end(), given.value);
@@ -156,7 +170,8 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
       const auto values = parse_reals(given.value, n);
       if (!values || (count == 1 && !parse_real(given.value)))
         refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n),
-               other_unit_hint(declared.unit, given.value) + corners_hint(declared, n, given.value));
+               other_unit_hint(declared.unit, given.value) + corners_hint(declared, n, given.value) +
+                   as_meant(given, count == 1 ? "" : reals_as_meant(given.value, n)));
       for (const double value : *values) check_bounds(declared, count, given, value, warn);
       return *values;
     }
@@ -168,7 +183,7 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
     }
     case MUSTER_FLAG:
       if (given.value != "true" && given.value != "false")
-        refuse(declared, count, given, quote(given.value) + " is neither");
+        refuse(declared, count, given, quote(given.value) + " is neither", as_meant(given, flag_as_meant(given.value)));
       return {given.value == "true" ? 1.0 : 0.0};
     case MUSTER_CHOICE:
       return {choice_value(declared, given)};
