@@ -22,6 +22,7 @@
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 #include "way_doubts.hpp"
+#include "world_file/kinds.hpp"
 #include "written_files.hpp"
 
 namespace muster::cli {
@@ -59,6 +60,8 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--origin", words.view_at.origins,
               "with --view: a site whose page may watch, such as https://app.foxglove.dev")
       .one_word_each();
+  for (const char* option : {"--port", "--address", "--token", "--paused", "--origin"})
+    line.only_with(option, "--view");
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
   line.void_beside("--expected", {"--until", "--digest-every", "--watch", "--real-time", "--speed"}, "runs no tick");
 }
@@ -193,11 +196,6 @@ World asked_world(RunWords& words) {
   check_written(words);
   words.may_log = true;
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
-  if (!words.view && (words.view_at.is_paused || !words.view_at.origins.empty()))
-    throw Error(Exit::invalid_input, "--paused and --origin need --view beside them");
-  if (!words.view && (words.view_at.port != ViewSettings{}.port || !words.view_at.token.empty() ||
-                      words.view_at.address != ViewSettings{}.address))
-    throw Error(Exit::invalid_input, "--port, --address and --token need --view beside them");
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   if (!words.log.plot.empty() && words.expected)
@@ -216,7 +214,8 @@ World asked_world(RunWords& words) {
     if (!known) {
       std::vector<std::string> names;
       for (const auto& instance : world.instances) names.push_back(instance.name);
-      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) + "; " +
+      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) +
+                                           which_is(world, swap.instance, "instance") + "; " +
                                            suggest(swap.instance, names) +
                                            plugin_hint(swap.instance, whose_plugin(world.instances, swap.instance)));
     }

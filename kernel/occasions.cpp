@@ -13,6 +13,7 @@
 #include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 #include "world_file/params.hpp"
 
 namespace muster {
@@ -90,7 +91,8 @@ std::vector<double> Simulation::of_link(const std::string& from, const std::stri
   const Set& radios = *board_.find_set("radio");
   for (const auto& name : {from, to}) {
     if (radios.find(name) < 0)
-      throw Error(Exit::invalid_input, "no radio is called " + quote(name) + "; " + suggest(name, radios.names));
+      throw Error(Exit::invalid_input, "no radio is called " + quote(name) + which_is(world_, name, "radio") + "; " +
+                                           suggest(name, radios.names));
   }
   const TableView asked = table("link/*/" + quantity), ends = table("link/*/ends"),
                   endpoints = table("endpoint/*/radio");

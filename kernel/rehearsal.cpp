@@ -11,6 +11,7 @@
 #include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster {
 namespace {
@@ -151,6 +152,9 @@ void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>
     const Set *set = board_.find_set(planned.sets.front()), *robots = board_.find_set("robot");
     if (planned.sets.size() == 1 && robots->find(planned.row) >= 0)
       throw Error(Exit::invalid_input, quote(planned.row) + " is a robot; expected robot=\"" + planned.row + '"');
+    if (planned.sets.size() > 1 && kind_of_name(world_, planned.row, "robot") == "station")
+      throw Error(Exit::invalid_input,
+                  quote(planned.row) + " is a station; expected <leave station=\"" + planned.row + "\"/>");
     if (!set || set->find(planned.row) < 0) living(planned.sets.front(), planned.row);  // throws with the nearest name
     return;
   }

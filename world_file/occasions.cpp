@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "kinds.hpp"
 #include "params.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -176,10 +177,11 @@ void check_occasions(const World& world) {
     for (const auto& change : occasion.plugins) {
       if (first.count(change.instance)) continue;
       const std::string owner = whose_plugin(world.instances, change.instance);
-      throw invalid(change.instance_place, "no instance is called " + quote(change.instance) +
-                                               (owner.empty() ? "; " + suggest(change.instance, valid)
-                                                              : ", which is the plugin of " + quote(owner) +
-                                                                    "; expected instance=\"" + owner + '"'));
+      throw invalid(
+          change.instance_place,
+          "no instance is called " + quote(change.instance) + which_is(world, change.instance, "instance") +
+              (owner.empty() ? "; " + suggest(change.instance, valid)
+                             : ", which is the plugin of " + quote(owner) + "; expected instance=\"" + owner + '"'));
     }
   }
 }

@@ -75,7 +75,8 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "3", "--to", "1"},
           "--from 3 is after --to 1; expected --from 1 --to 3");
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "1min"},
-          "--from: \"1min\" is not a number; \"min\" follows the number; expected seconds: --from 60");
+          "--from: \"1min\" is not a number; \"min\" follows the number: units are fixed and not written; expected "
+          "seconds: --from 60");
   refused({"log", "csv", "a.txt", "--from", "1", "--to", "2"},
           "--from and --to are of cut, not of csv; expected first muster log cut a.txt --from 1 --to 2 -o part.mcap, "
           "then muster log csv part.mcap");

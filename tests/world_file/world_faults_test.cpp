@@ -64,7 +64,7 @@ TEST_F(Faults, Fault6Numbers) {
   EXPECT_EQ(loss("inf"), at_loss + "\"inf\" is not a number; it must be finite" + number);
   EXPECT_EQ(loss("1e400"), at_loss + "\"1e400\" is out of range" + number);
   EXPECT_EQ(loss("1.5abc"), at_loss + "\"1.5abc\" is not a number; \"abc\" follows the number" + number);
-  EXPECT_EQ(loss("0x10"), at_loss + "\"0x10\" is not a number; numbers are written in decimal" + number);
+  EXPECT_EQ(loss("0x10"), at_loss + "\"0x10\" is not a number; numbers are written in decimal: 16" + number);
   EXPECT_EQ(loss(""), at_loss + "\"\" is not a number; the text is empty" + number);
   EXPECT_EQ(loss(" "), at_loss + "\" \" is not a number; it has spaces in it or around it" + number);
   EXPECT_EQ(loss(" 3"), at_loss + "\" 3\" is not a number; it has spaces in it or around it" + number);

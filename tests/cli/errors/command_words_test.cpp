@@ -137,9 +137,9 @@ TEST(CommandWords, AVerbThatIsAnOptionOfRun) {
 }
 
 TEST(CommandWords, TimesAndLengthsWithUnits) {
-  EXPECT_EQ(
-      words_said_by({"run", "world.xml", "--until", "1min"}),
-      "muster: error: --until: \"1min\" is not a number; \"min\" follows the number; expected seconds: --until 60\n");
+  EXPECT_EQ(words_said_by({"run", "world.xml", "--until", "1min"}),
+            "muster: error: --until: \"1min\" is not a number; \"min\" follows the number: units are fixed and not "
+            "written; expected seconds: --until 60\n");
   EXPECT_THAT(words_said_by({"run", "world.xml", "--until", "00:01:30"}), HasSubstr("expected seconds: --until 90\n"));
   EXPECT_THAT(words_said_by({"run", "world.xml", "--until", "long"}), HasSubstr("is not a number; expected seconds\n"));
   EXPECT_THAT(words_said_by({"map", "world.xml", "--out", "m", "--height", "150cm"}),
@@ -150,9 +150,9 @@ TEST(CommandWords, ASweepUntilATimeWithAUnit) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(""));
   folder.write("s.xml", R"(<sweep world="world.xml" seeds="1" until="1min"/>)");
-  expect_error(
-      folder.muster({"sweep", "s.xml", "--out", "o"}), 2,
-      "s.xml:1:43: until: \"1min\" is not a number; \"min\" follows the number; expected seconds; 1min are 60 s");
+  expect_error(folder.muster({"sweep", "s.xml", "--out", "o"}), 2,
+               "s.xml:1:43: until: \"1min\" is not a number; \"min\" follows the number: units are fixed and not "
+               "written; expected seconds; 1min are 60 s");
 }
 
 TEST(CommandWords, ABundleInThePlaceOfAWorld) {
