@@ -21,7 +21,7 @@ std::string unit_of(const Simulation& run, const Condition& condition) {
   const auto parts = parts_of(condition.path);
   const bool is_link = parts.size() == 5 && parts[0] == "link";
   const auto view = run.table(is_link ? "link/*/" + parts[3] : condition.path.substr(0, condition.path.rfind('/')));
-  return view.table->columns()[column_of(*view.table, parts.back())].unit;
+  return view.table->columns()[column_of(run.board(), *view.table, parts.back())].unit;
 }
 
 }  // namespace

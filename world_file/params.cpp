@@ -26,7 +26,10 @@ namespace {
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
   if (value < declared.min || value > declared.max)
     refuse(declared, count, given, print_real(value) + " is out of bounds",
-           unit_hint(declared.unit, value, declared.min, declared.max));
+           unit_hint(declared.unit, value, declared.min, declared.max) +
+               (declared.kind == MUSTER_INTEGER && declared.help && *declared.help
+                    ? " (" + std::string(declared.help) + ')'
+                    : ""));
   if (const std::string doubt = unit_doubt(declared.name, declared.unit, value); !doubt.empty())
     warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
 }

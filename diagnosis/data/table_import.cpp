@@ -155,8 +155,24 @@ class Importer {
     }
   }
 
+  // `rssi = rssi[dBm]`: a column of the result on the right, and one of the data on the left.
+  void refuse_exchanged(const ColumnRule& rule) const {
+    const std::string& right = rule.text;
+    const auto ours = reading_columns().find(right.substr(0, right.find('[')));
+    const auto has = [&](const std::string& column) {
+      return std::any_of(source_.files().begin(), source_.files().end(), [&](const auto& t) { return t.has(column); });
+    };
+    if (ours == reading_columns().end() || ours->second.empty() || has(right) || !has(rule.column.label()) ||
+        right != TextColumn{ours->first, ours->second}.label())
+      return;
+    throw invalid(rule.place,
+                  "the rule is the wrong way round: a column of the result stands on the left, and one of " +
+                      source_.files()[0].file() + " on the right; expected " + right + " = " + rule.column.label());
+  }
+
   // Checks a rule against the format's definition of its column.
   void check_rule(const ColumnRule& rule) const {
+    refuse_exchanged(rule);
     const auto known = reading_columns().find(rule.column.name);
     const auto made_in = [&](const std::string& unit, const std::string& what) {
       if (rule.column.unit != unit)

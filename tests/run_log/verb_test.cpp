@@ -83,7 +83,8 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
   refused({"log", "info", "a.txt", "-o", "b"},
           "--out is of recover, cut and csv; info writes no file; expected no --out, or info > b");
   std::filesystem::create_directories(folder.path() / "bag");
-  refused({"log", "info", "bag"}, "bag: is a folder; expected an MCAP file, and it has none");
+  refused({"log", "info", "bag"},
+          "bag: is a folder; expected an MCAP file, and it has none (muster run WORLD --mcap FILE writes one)");
   folder.write("bag/bag_0.db3", "x");
   refused(
       {"log", "info", "bag"},
