@@ -17,6 +17,7 @@
 #include "run_options.hpp"
 #include "run_pictures.hpp"
 #include "run_record.hpp"
+#include "saved_run.hpp"
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -328,6 +329,11 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   }
   if (record && !unnamed) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
+  if (!words.save.empty() && !view && !words.watch && !words.expected && !interrupted()) {
+    const std::string lost =
+        loss_of_snapshot(run, world, {plugin_path(words.plugins), words.workers, {}}, std::max(took.count(), 1.0));
+    if (!lost.empty()) fmt::print(stderr, "muster: warning: --save: {} {}\n", words.save, lost);
+  }
   run.close();
   return true;
 }

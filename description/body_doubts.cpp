@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "description/file_text.hpp"
-#include "description/rpy.hpp"
 
 namespace muster::description {
 
@@ -159,16 +158,18 @@ class BodyDoubts {
       const auto clean = [](double c) { return print_number(std::abs(c) < 1e-3 ? 0 : std::round(c * 1000) / 1000); };
       return clean(v.x()) + ' ' + clean(v.y()) + ' ' + clean(v.z());
     };
-    Eigen::Matrix3d upright = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis).toRotationMatrix();
-    if (upright(2, 1) < 0)  // the same cylinder, turned by +90 degrees instead of -90
-      upright = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), -joint.axis).toRotationMatrix();
+    // Roll and pitch that lay z along the axle, and the other way round where the roll would be below 0.
+    const Vector3d way = joint.axis.y() > 0 ? Vector3d(-joint.axis) : joint.axis;
+    const double roll = std::asin(std::clamp(-way.y(), -1.0, 1.0));
+    const double pitch = std::hypot(way.x(), way.z()) < 1e-9 ? 0 : std::atan2(way.x(), way.z());
     const Vector3d middle = cylinder.pose.translation();
-    warn(link.line, "link '" + link.name + "': its collision cylinder lies along " +
-                        text(cylinder.pose.linear().col(2)) + ", and its joint '" + joint.name + "' turns about " +
-                        text(joint.axis) + ", so that the wheel stands on end; expected " +
-                        (is_mjcf_ ? "its <geom> turned, such as by euler=\"90 0 0\" (degrees)"
-                                  : "<origin " + (middle.norm() > 0 ? "xyz=\"" + text(middle) + "\" " : "") + "rpy=\"" +
-                                        rpy_text(upright) + "\"/> in its <collision>"));
+    warn(link.line,
+         "link '" + link.name + "': its collision cylinder lies along " + text(cylinder.pose.linear().col(2)) +
+             ", and its joint '" + joint.name + "' turns about " + text(joint.axis) +
+             ", so that the wheel stands on end; expected " +
+             (is_mjcf_ ? "its <geom> turned, such as by euler=\"90 0 0\" (degrees)"
+                       : "<origin " + (middle.norm() > 0 ? "xyz=\"" + text(middle) + "\" " : "") + "rpy=\"" +
+                             print_exactly(roll) + " " + print_exactly(pitch) + " 0\"/> in its <collision>"));
   }
 
   static double rounded(double metres) { return std::round(metres * 1000) / 1000; }

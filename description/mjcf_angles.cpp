@@ -46,7 +46,9 @@ class Angles {
 
   // What looks like radians is said once: a file has one unit.
   void tell(std::vector<std::string>& warnings) const {
-    if (!first_.empty()) warnings.push_back(first_ + (more_ ? "; so are " + std::to_string(more_) + " more" : ""));
+    if (!first_.empty())
+      warnings.push_back(
+          first_ + (more_ ? (more_ == 1 ? "; so is 1 more" : "; so are " + std::to_string(more_) + " more") : ""));
     warnings.insert(warnings.end(), beyond_.begin(), beyond_.end());
   }
 

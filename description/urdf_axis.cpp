@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "description/file_text.hpp"
-#include "description/rpy.hpp"
 #include "description/urdf_check.hpp"
 
 namespace muster::description {
@@ -16,6 +15,13 @@ constexpr double degree = 0.017453292519943295;  // [rad]
 // [rad] An axis nearer than `exact` stays as it is; up to `rounded` it is taken for one of figures cut short, as an rpy
 // of 1.57 (0.046 degrees off).
 constexpr double exact = 1e-6, rounded = degree;
+
+// Roll, pitch and yaw as URDF has them: R = Rz(yaw) Ry(pitch) Rx(roll).
+std::string rpy_text(const Matrix3d& r) {
+  const auto clean = [](double v) { return print_exactly(std::abs(v) < 1e-12 ? 0 : v); };
+  return clean(std::atan2(r(2, 1), r(2, 2))) + " " + clean(std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2)))) + " " +
+         clean(std::atan2(r(1, 0), r(0, 0)));
+}
 
 }  // namespace
 

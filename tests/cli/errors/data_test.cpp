@@ -204,7 +204,7 @@ TEST(Fault25, ARadioThatTheWorldDoesNotHave) {
 TEST(Fault25, AStationThatMovesIsSaidToMove) {
   EXPECT_THAT(
       fit(Data().text()).out,
-      HasSubstr("note: \"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
+      HasSubstr("\"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
                 "are used"));
 }
 

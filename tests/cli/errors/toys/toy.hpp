@@ -28,6 +28,12 @@
 #define TOY_KEEPS_CACHES false
 #endif
 
+// How often it was called in this process: state that no table holds.
+inline int calls() {
+  static int count = 0;
+  return ++count;
+}
+
 struct Commas {
   static constexpr const char* columns = "x[m],y[m], z[m]";
   double x, y, z;
