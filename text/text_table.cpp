@@ -377,7 +377,7 @@ std::string TextTable::why_not_number(std::string_view raw, Allow allow) {
   const std::string text = cell_text(raw);
   if (parse_real(text)) return quote(text) + " is in quotes, so it is a name; expected a number";
   if (allow.empty && stands_for_nothing(text))
-    return quote(text) + " is not a number; expected an empty cell where there is none (muster import makes it so)";
+    return quote(text) + " is not a number; expected an empty cell where there is no value (muster import makes it so)";
   return why_not_real(text);
 }
 

@@ -98,6 +98,10 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
   EXPECT_EQ(error("<set path='mover/add' value='much'/>"),
             "world.xml:5:40: attribute \"value\": \"much\" is not a number; expected a number from -1e+06 to 1e+06 m");
   EXPECT_EQ(error("<leave robot='c'/>"), "world.xml:5:25: no robot is called \"c\"; expected one of a, b");
+  EXPECT_EQ(error("<leave robot='mover'/>"),
+            "world.xml:5:25: no robot is called \"mover\", which is an instance of toy.copy_physics (world.xml:4:1); "
+            "expected one "
+            "of a, b");
   EXPECT_EQ(error("<set path='mover/add'/>"),
             "world.xml:5:11: <set> has no attribute \"value\", which it needs; expected its new value");
   EXPECT_EQ(error("<stop/>"),

@@ -59,6 +59,22 @@ TEST(CommandWords, ByThePluginInPlaceOfTheInstance) {
                 "plugin of \"channel\"\n"));
 }
 
+TEST(CommandWords, ANameOfAnotherKind) {
+  const ProgramFolder folder;
+  folder.write("world.xml",
+               "<world dt=\"0.1\" until=\"1\">\n<station name=\"base\" at=\"0 0 1\"/>\n"
+               "<station name=\"far\" at=\"5 0 1\"/>\n<radio.multiwall name=\"channel\"/>\n"
+               "</world>");
+  const auto said = [&](const std::vector<std::string>& words) { return folder.muster(words).err; };
+  EXPECT_THAT(said({"swap", "world.xml", "--at", "0.5", "--instance", "base", "--plugin", "test.good"}),
+              HasSubstr("--instance: no instance is called \"base\", which is a station (world.xml:2:1); expected"));
+  EXPECT_THAT(said({"probe", "world.xml", "base", "channel"}),
+              HasSubstr("is called \"channel\", which is an instance of radio.multiwall (world.xml:4:1); expected"));
+  EXPECT_THAT(said({"run", "world.xml", "--set", "base/n=3"}),
+              HasSubstr("it begins with \"base\", which is a station (world.xml:2:1)"));
+  EXPECT_THAT(said({"run", "world.xml", "--record", "robot/base/pose", "--out", "out"}), HasSubstr("base"));
+}
+
 TEST(CommandWords, AParameterByItsMeaning) {
   EXPECT_THAT(
       said_beside_a_channel({"run", "lab", "--set", "channel/exponent=3"}),

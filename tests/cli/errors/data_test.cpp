@@ -94,7 +94,8 @@ TEST(Fault25, LevelsThatNoReceiverGives) {
   expect_refused(Data().set(6, 7, "31").text(),
                  ":7:26: row 6: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
   expect_refused(Data().set(6, 7, "nan").text(),
-                 ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
+                 ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; expected an empty cell where there is no value "
+                 "(muster import makes it so)");
 }
 
 TEST(Fault25, NumbersOfAnotherCountry) {
@@ -202,10 +203,9 @@ TEST(Fault25, ARadioThatTheWorldDoesNotHave) {
 }
 
 TEST(Fault25, AStationThatMovesIsSaidToMove) {
-  EXPECT_THAT(
-      fit(Data().text()).out,
-      HasSubstr("\"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
-                "are used"));
+  EXPECT_THAT(fit(Data().text()).out,
+              HasSubstr("\"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
+                        "are used"));
 }
 
 TEST(Fault25, CellsThatAreAllTooSmallAreNoStatistic) {

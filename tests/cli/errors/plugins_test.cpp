@@ -164,13 +164,13 @@ TEST(Fault16, StateOutsideOfTablesIsFoundWhereARunIsSaved) {
   const ProgramFolder folder;
   const auto saved = [&](const std::string& toy) {
     const auto outcome = run_toy(folder, "<test." + toy + " name=\"shelf\"/>", {"--until", "0.5", "--save", "s.bin"});
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
     return outcome.err;
   };
   EXPECT_THAT(saved("stops"),
               testing::HasSubstr("muster: warning: --save: s.bin does not hold all of the run's state: restored in a "
                                  "world of its own it goes on otherwise at 2.1 s, in instance/shelf/*/cell, row shelf, "
-                                 "value[m], which shelf (test.stops) writes: 21 instead of -1; such a plugin keeps "
+                                 "value[m], which shelf (test.stops/1) writes: 21 instead of -1; such a plugin keeps "
                                  "state in members or static variables"));
   for (const char* toy : {"good", "keeps_caches", "counts_caches"})
     EXPECT_THAT(saved(toy), testing::Not(testing::HasSubstr("--save"))) << toy;
