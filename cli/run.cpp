@@ -45,7 +45,8 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("world", words.world, "the world's folder or file").required();
   declare(line, static_cast<RunOptions&>(words));
   declare(line, words.log);
-  line.option("--save", words.save, "write the state at the end to this file");
+  line.option("--save", words.save,
+              "write the state at the end to this file, and see that it holds all: as long again, at most");
   line.option("--restore", words.restore,
               "begin from a state that --save wrote; a --seed beside it counts from there on");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks").at_least(1);

@@ -280,6 +280,10 @@ TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
   EXPECT_EQ(when("robot/a/pose/x above 3m"),
             "world.xml:5:11: attribute \"when\": \"3m\" is not a number; \"m\" follows the number: units are fixed "
             "and not written; expected a number to compare with");
+  EXPECT_EQ(when("robot/a/pose/x above 3 km"),
+            "world.xml:5:11: attribute \"when\": \"3 km\" is not a number; \"km\" follows the number: units are fixed "
+            "and not written; expected a number to compare with");
+  EXPECT_THAT(when("robot/a/pose/yaw above 3"), testing::HasSubstr("; the turn here is the quaternion qw, qx, qy, qz"));
   EXPECT_EQ(when("robot/a/pose/u above 3"),
             "world.xml:5:11: the table robot/*/pose has no column \"u\"; expected one of x, y, z, qw, qx, qy, qz");
   EXPECT_EQ(when("robot/c/pose/x above 3"), "world.xml:5:11: there is no robot \"c\"; expected one of a, b");

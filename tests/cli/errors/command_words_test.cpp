@@ -75,6 +75,16 @@ TEST(CommandWords, ANameOfAnotherKind) {
   EXPECT_THAT(said({"run", "world.xml", "--record", "robot/base/pose", "--out", "out"}), HasSubstr("base"));
 }
 
+TEST(CommandWords, AWorldInThePlaceOfADiagnosis) {
+  const ProgramFolder folder;
+  folder.write("lab/world.xml", "<world dt=\"0.1\" until=\"1\"/>");
+  folder.write("notes/a.txt", "");
+  const std::string expected = "; expected the FOLDER that muster diagnose WORLD --data FILE --out FOLDER wrote";
+  expect_error(folder.muster({"diagnose", "--check", "lab"}), 2,
+               "--check: lab is the folder of a world, and of no diagnosis" + expected);
+  expect_error(folder.muster({"diagnose", "--check", "notes"}), 2, "--check: notes is no diagnosis" + expected);
+}
+
 TEST(CommandWords, AParameterByItsMeaning) {
   EXPECT_THAT(
       said_beside_a_channel({"run", "lab", "--set", "channel/exponent=3"}),
