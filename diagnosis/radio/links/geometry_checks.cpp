@@ -200,9 +200,9 @@ std::vector<std::string> check_stations(const LinkModel& model, const Dataset& d
                       "; the data's places are used" +
                       (other < 0 ? ""
                                  : ", in which " + quote(model.radio_name(other)) +
-                                       " stands there; expected tx_x, tx_y and rx_x, rx_y exchanged in the header, or "
-                                       "tx and rx, whichever of them is wrong (a map of muster import: tx = the column "
-                                       "of rx, rx = that of tx)"));
+                                       " stands there; are tx_x, tx_y and rx_x, rx_y exchanged in the header, or the "
+                                       "names in tx and rx? (a map of muster import: tx = the column of rx, rx = that "
+                                       "of tx)"));
     }
   }
   return notes;
@@ -253,17 +253,17 @@ std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& 
   std::vector<std::string> silent = model.radio_names();
   for (const Factor* heard : {&data.tx, &data.rx})
     for (const std::string& name : heard->levels) std::erase(silent, name);
-  std::string meant;  // "base" in place of "/base"
+  std::string meant;  // "/base" as "base"
   for (const std::string& name : added) {
     const std::string near = meant_radio(name, silent);
-    if (!near.empty()) meant += (meant.empty() ? "" : ", ") + quote(near) + " in place of " + quote(name);
+    if (!near.empty()) meant += (meant.empty() ? "" : ", ") + quote(name) + " as " + quote(near);
   }
   std::string words = place_of(added[0], data) + "radios of the data that the world does not have: " + list_of(added);
   if (!silent.empty()) words += "; radios of the world without a reading: " + list_of(silent);
   if (!meant.empty())
-    words += "; expected " + meant +
-             (added[0].starts_with('/') ? ": names have no slash (a map of muster import names them anew)" : "");
-  return {words + "; as it is, a cause that is found about one adds it to the extended world"};
+    words += "; is " + meant + " meant?" +
+             (added[0].starts_with('/') ? " names have no slash (a map of muster import names them anew)" : "");
+  return {words + " (as they are, a cause that is found about one adds it to the extended world)"};
 }
 
 std::vector<std::string> check_places(const LinkModel& model, const Dataset& data) {

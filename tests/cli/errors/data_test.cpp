@@ -192,11 +192,11 @@ TEST(Fault25, Milliwatts) {
 TEST(Fault25, ARadioThatTheWorldDoesNotHave) {
   const std::string note =
       ":2:3: radios of the data that the world does not have: \"bse\"; radios of the world without a reading: "
-      "\"base\"; expected \"base\" in place of \"bse\"";
-  const std::string end = "; as it is, a cause that is found about one adds it to the extended world";
+      "\"base\"; is \"bse\" as \"base\" meant?";
+  const std::string end = " (as they are, a cause that is found about one adds it to the extended world)";
   EXPECT_THAT(fit(Data().set_all(1, "bse").text()).out, HasSubstr(note + end));
   EXPECT_THAT(fit(Data().set_all(1, "/base").text()).out,
-              HasSubstr("expected \"base\" in place of \"/base\": names have no slash (a map of muster import names "
+              HasSubstr("is \"/base\" as \"base\" meant? names have no slash (a map of muster import names "
                         "them anew)" +
                         end));
   EXPECT_THAT(fit(Data().text()).out, testing::Not(HasSubstr("does not have")));
