@@ -222,7 +222,7 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
     if (!fault.empty()) throw Error(Exit::invalid_input, fault);
   }
   const std::string owner = path.substr(0, path.rfind('/'));
-  const std::string kind = owner == path ? "" : which_is(world_, owner);
+  const std::string kind = owner.find('/') != owner.npos || owner == path ? "" : which_is(world_, owner);
   throw Error(Exit::invalid_input, unknown_parameter(path, all, whose_plugin(world_.instances, owner)) +
                                        (kind.empty() || has(owner) ? "" : "; it begins with " + quote(owner) + kind));
 }

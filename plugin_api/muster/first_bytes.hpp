@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstring>
-#include <muster/plugin_traits.hpp>
 
 namespace muster::detail {
 
 // The bytes of a plugin as its constructor left them. What a member points to is not among them.
-template <class Plugin, bool is_kept = has_const_step<Plugin> && !keeps_only_caches_of<Plugin>>
+template <class Plugin, bool is_kept>
 struct FirstBytes {
   explicit FirstBytes(const Plugin& plugin) { std::memcpy(bytes, static_cast<const void*>(&plugin), sizeof bytes); }
   // True once.

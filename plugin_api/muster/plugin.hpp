@@ -320,7 +320,7 @@ struct Held {
   Held(const muster_host* its_host, Setup& setup) : host(its_host), plugin(setup), first(plugin) {}
   const muster_host* host;
   Plugin plugin;
-  FirstBytes<Plugin> first;
+  FirstBytes<Plugin, has_const_step<Plugin> && !keeps_only_caches_of<Plugin>> first;
 };
 
 // Members that step() changes are state that a snapshot, a restore and a swap lose.

@@ -48,10 +48,11 @@ TEST_F(Faults, Fault5MisspeltNames) {
             "plugin as an element inside");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' material='n'/>"),
             "world.xml:3:37: no material is called \"n\"; expected m");
-  EXPECT_EQ(error_with(walls + "<wall name='w' from='0 0' to='1 0'/>\n<wall from='0 0' to='1 0' material='w'/>"),
-            "world.xml:4:37: no material is called \"w\", which is a wall (world.xml:3:1); expected m");
+  EXPECT_EQ(
+      error_with(walls + "<wall name='w' from='0 0' to='1 0' material='m'/>\n<wall from='0 0' to='1 0' material='w'/>"),
+      "world.xml:4:37: no material is called \"w\", which is a wall (world.xml:3:1); expected m");
   EXPECT_EQ(error_with(walls + "<station name='base' at='0 0 1'/>\n<door wall='base' at='0'/>"),
-            "world.xml:4:12: no wall is called \"base\", which is a station (world.xml:3:1); the world has none");
+            "world.xml:4:13: no wall is called \"base\", which is a station (world.xml:3:1); the world has none");
   EXPECT_EQ(error_with("<a.b/>\n<station name='base' at='0 0 1'/>\n<swap at='1' instance='base' plugin='x.y'/>"),
             "world.xml:4:24: no instance is called \"base\", which is a station (world.xml:3:1); expected a.b");
   EXPECT_EQ(error_with("<wall from='0 0' to='1 0' material='n'/>"),
