@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "text/error.hpp"
@@ -63,6 +64,14 @@ DeclaredOption data_of(const CLI::Option& option) {
   result.help = option.get_description();
   result.choices = choices_of(option.get_type_name());
   result.is_required = option.get_required();
+  return result;
+}
+
+// "--port, --address and --token"
+std::string all_of(const std::vector<std::string>& options) {
+  std::string result;
+  for (std::size_t i = 0; i < options.size(); ++i)
+    result += (i == 0 ? "" : i + 1 == options.size() ? " and " : ", ") + options[i];
   return result;
 }
 
@@ -258,17 +267,27 @@ void CommandLine::void_beside(const std::string& other, const std::vector<std::s
 }
 
 void CommandLine::check_effects() const {
-  for (const Effect& effect : effects_) {
-    if (app_->get_option(effect.option)->count() == 0) continue;
+  const auto is_void = [&](const Effect& effect) {
+    if (app_->get_option(effect.option)->count() == 0) return false;
     const CLI::Option& other = *app_->get_option(effect.other);
     const bool is_there = other.count() > 0 && (effect.value.empty() || other.results().back() == effect.value);
-    const std::string beside = effect.other + (effect.value.empty() ? "" : ' ' + effect.value);
-    if (effect.needs_other && !is_there)
-      refuse(effect.option + " has no effect without " + beside + "; expected " + beside + " beside it, or no " +
-             effect.option);
-    if (!effect.needs_other && is_there)
-      refuse(effect.option + " has no effect beside " + beside + ", which " + effect.why + "; expected one of the two");
+    return is_there != effect.needs_other;
+  };
+  const auto first = std::find_if(effects_.begin(), effects_.end(), is_void);
+  if (first == effects_.end()) return;
+  std::vector<std::string> given;  // all that are void for the same reason, and no other
+  for (const Effect& effect : effects_) {
+    const bool is_alike = std::tie(effect.other, effect.value, effect.why, effect.needs_other) ==
+                          std::tie(first->other, first->value, first->why, first->needs_other);
+    if (is_alike && is_void(effect)) given.push_back(effect.option);
   }
+  const std::string beside = first->other + (first->value.empty() ? "" : ' ' + first->value);
+  const bool is_one = given.size() == 1;
+  const std::string who = all_of(given) + (is_one ? " has" : " have");
+  if (first->needs_other)
+    refuse(who + " no effect without " + beside + "; expected " + beside + " beside " +
+           (is_one ? "it, or no " + given[0] : "them, or none of them"));
+  refuse(who + " no effect beside " + beside + ", which " + first->why + "; expected one of the two");
 }
 
 void CommandLine::parse(const Arguments& arguments) {

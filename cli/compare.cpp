@@ -239,9 +239,9 @@ int run_compare(const Arguments& arguments) {
               "TABLE/COLUMN, such as robot/leader/pose/x: what the ladder shows in place of moved and delivered")
       .one_word_each();
   line.option("--measured", words.measured, "a log of poses (docs/reference/table_format.md): the ladder's last body");
+  line.only_with("--measured", "--ladder");
+  line.only_with("--metric", "--ladder");
   line.parse(arguments);
-  if (!words.ladder && !words.measured.empty())
-    throw Error(Exit::invalid_input, "muster compare: --measured is of the ladder; expected --ladder beside it");
   if (words.ladder && !(words.others.empty() && words.within.empty() && words.record.empty()))
     throw Error(Exit::invalid_input,
                 "muster compare --ladder: takes the world alone, as its rungs are what is compared; "
@@ -249,8 +249,6 @@ int run_compare(const Arguments& arguments) {
                     (!words.others.empty()   ? words.others[0]
                      : !words.within.empty() ? "--within"
                                              : std::string("--record")));
-  if (!words.ladder && !words.metrics.empty())
-    throw Error(Exit::invalid_input, "muster compare: --metric is of the ladder; expected --ladder beside it");
   if (words.ladder) return static_cast<int>(run_ladder(words));
   Comparison comparison(words);
   comparison.run();

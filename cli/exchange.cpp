@@ -5,6 +5,7 @@
 
 #include "run_options.hpp"
 #include "text/names.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster::cli {
 
@@ -18,7 +19,8 @@ Exchange exchange_of(const std::string& instance, const std::string& plugin) {
 
 void exchange(World& world, const Exchange& wanted, const std::vector<std::string>& instances, const std::string& who) {
   if (std::find(instances.begin(), instances.end(), wanted.instance) == instances.end())
-    throw Error(Exit::invalid_input, who + ": no instance is called " + quote(wanted.instance) + "; " +
+    throw Error(Exit::invalid_input, who + ": no instance is called " + quote(wanted.instance) +
+                                         which_is(world, wanted.instance, "instance") + "; " +
                                          suggest(wanted.instance, instances) +
                                          plugin_hint(wanted.instance, whose_plugin(world.instances, wanted.instance)));
   InstanceDeclaration made = instance_of(wanted.instance, wanted.plugin, wanted.attributes, who);

@@ -19,6 +19,7 @@
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 #include "text/text_table_writer.hpp"
+#include "world_file/kinds.hpp"
 #include "written_files.hpp"
 
 namespace muster::cli {
@@ -129,7 +130,8 @@ std::vector<Sender> senders_of(const Simulation& run, const MapWords& words) {
   for (const std::string& name : wanted) {
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw Error(Exit::invalid_input,
-                  "--from: no radio is called " + quote(name) + "; " + suggest(name, names) +
+                  "--from: no radio is called " + quote(name) + which_is(run.world(), name, "radio") + "; " +
+                      suggest(name, names) +
                       (name.find(',') == name.npos ? "" : "; names stand between blanks, without commas"));
     const auto at = std::find_if(endpoints.begin(), endpoints.end(), [&](const Endpoint& e) {
       return names.at(static_cast<std::size_t>(e.radio)) == name;

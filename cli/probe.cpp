@@ -11,6 +11,7 @@
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster::cli {
 namespace {
@@ -54,8 +55,8 @@ struct Rows {
 std::size_t endpoint_of(const Simulation& run, const std::string& radio) {
   const auto names = names_of(run, "radio");
   if (std::find(names.begin(), names.end(), radio) == names.end())
-    throw Error(Exit::invalid_input, "no radio of " + run.world().file.string() + " is called " + quote(radio) + "; " +
-                                         suggest(radio, names));
+    throw Error(Exit::invalid_input, "no radio of " + run.world().file.string() + " is called " + quote(radio) +
+                                         which_is(run.world(), radio, "radio") + "; " + suggest(radio, names));
   const auto endpoints = rows_of<Endpoint>(run, "endpoint/*/radio");
   for (std::size_t i = 0; i < endpoints.size(); ++i)
     if (names.at(static_cast<std::size_t>(endpoints[i].radio)) == radio) return i;

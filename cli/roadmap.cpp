@@ -15,6 +15,7 @@
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table_writer.hpp"
+#include "world_file/kinds.hpp"
 #include "written_files.hpp"
 
 namespace muster::cli {
@@ -117,8 +118,8 @@ PlannedRobot planned_robot(const World& world, const RoadmapWords& words) {
   result.name = words.robot ? *words.robot : names[0];
   const auto found = std::find(names.begin(), names.end(), result.name);
   if (found == names.end())
-    throw Error(Exit::invalid_input,
-                "--robot: no robot is called " + quote(result.name) + "; " + suggest(result.name, names));
+    throw Error(Exit::invalid_input, "--robot: no robot is called " + quote(result.name) +
+                                         which_is(world, result.name, "robot") + "; " + suggest(result.name, names));
   result.row = static_cast<std::size_t>(found - names.begin());
   result.is_of_world = true;
   const Geometry box = box_of(world, result.row, words);

@@ -18,11 +18,13 @@
 #include "run_pictures.hpp"
 #include "run_record.hpp"
 #include "saved_run.hpp"
+#include "snapshot_loss.hpp"
 #include "text/json.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/temporary_folder.hpp"
 #include "way_doubts.hpp"
+#include "world_file/kinds.hpp"
 #include "written_files.hpp"
 
 namespace muster::cli {
@@ -44,7 +46,8 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("world", words.world, "the world's folder or file").required();
   declare(line, static_cast<RunOptions&>(words));
   declare(line, words.log);
-  line.option("--save", words.save, "write the state at the end to this file");
+  line.option("--save", words.save,
+              "write the state at the end to this file, and see that it holds all: as long again, at most");
   line.option("--save-every", words.save_every,
               "with --save: also on the way, each time so many seconds of the run have passed");
   line.option("--restore", words.restore,
@@ -62,6 +65,9 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--origin", words.view_at.origins,
               "with --view: a site whose page may watch, such as https://app.foxglove.dev")
       .one_word_each();
+  line.only_with("--save-every", "--save");
+  for (const char* option : {"--port", "--address", "--token", "--paused", "--origin"})
+    line.only_with(option, "--view");
   line.flag("--expected", words.expected, "run no tick: evaluate the radio channel once, as it is expected on average");
   line.void_beside("--expected", {"--until", "--digest-every", "--save-every", "--watch", "--real-time", "--speed"},
                    "runs no tick");
@@ -197,11 +203,6 @@ World asked_world(RunWords& words) {
   check_written(words);
   words.may_log = true;
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
-  if (!words.view && (words.view_at.is_paused || !words.view_at.origins.empty()))
-    throw Error(Exit::invalid_input, "--paused and --origin need --view beside them");
-  if (!words.view && (words.view_at.port != ViewSettings{}.port || !words.view_at.token.empty() ||
-                      words.view_at.address != ViewSettings{}.address))
-    throw Error(Exit::invalid_input, "--port, --address and --token need --view beside them");
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   if (!words.log.plot.empty() && words.expected)
@@ -220,7 +221,8 @@ World asked_world(RunWords& words) {
     if (!known) {
       std::vector<std::string> names;
       for (const auto& instance : world.instances) names.push_back(instance.name);
-      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) + "; " +
+      throw Error(Exit::invalid_input, "--instance: no instance is called " + quote(swap.instance) +
+                                           which_is(world, swap.instance, "instance") + "; " +
                                            suggest(swap.instance, names) +
                                            plugin_hint(swap.instance, whose_plugin(world.instances, swap.instance)));
     }
@@ -335,6 +337,11 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   }
   if (record && !unnamed) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
+  if (!words.save.empty() && !view && !words.watch && !words.expected && !interrupted()) {
+    const std::string lost =
+        loss_of_snapshot(run, world, {plugin_path(words.plugins), words.workers, {}}, std::max(took.count(), 1.0));
+    if (!lost.empty()) fmt::print(stderr, "muster: warning: --save: {} {}\n", words.save, lost);
+  }
   run.close();
   return true;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "kernel/occasions.hpp"
 #include "plotting/figure.hpp"
 #include "run_log/wide_table.hpp"
 #include "text/names.hpp"
@@ -55,7 +56,8 @@ void check_plot(const Simulation& run, const std::string& word) {
   }
   if (std::find(known.begin(), known.end(), column) != known.end()) return;
   throw Error(Exit::invalid_input, "--plot: the table " + quote(name) + " has no column " + quote(column) +
-                                       " of numbers; " + suggest(column, known));
+                                       " of numbers; " + suggest(column, known) +
+                                       column_elsewhere(run.board(), *run.table(name).table, column));
 }
 
 // "leader" of "robot/leader/pose", where the table is "robot/*/pose".

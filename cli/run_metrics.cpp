@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kernel/occasions.hpp"
 #include "text/names.hpp"
 
 namespace muster::cli {
@@ -19,22 +20,22 @@ double moved(const Simulation& run, const Positions& at_start) {
   return robots > 0 ? sum / static_cast<double>(robots) : nothing;
 }
 
-std::size_t column_of(const TableView& table, const std::string& path, const std::string& name,
+std::size_t column_of(const Simulation& run, const TableView& table, const std::string& path, const std::string& name,
                       const std::string& option) {
   std::vector<std::string> valid;
   for (std::size_t c = 0; c < table.cols(); ++c) {
     valid.push_back(table.table->columns()[c].name);
     if (valid.back() == name) return c;
   }
-  throw Error(Exit::invalid_input,
-              option + ": " + quote(path) + " has no column " + quote(name) + "; " + suggest(name, valid));
+  throw Error(Exit::invalid_input, option + ": " + quote(path) + " has no column " + quote(name) + "; " +
+                                       suggest(name, valid) + column_elsewhere(run.board(), *table.table, name));
 }
 
 // Of the copies of messages that were asked for, how many arrived.
 double delivered(const Simulation& run, const Positions&) {
   const TableView traffic = run.table("radio/*/traffic");
-  const std::size_t asked = column_of(traffic, "radio/*/traffic", "asked", "delivered");
-  const std::size_t arrived = column_of(traffic, "radio/*/traffic", "delivered", "delivered");
+  const std::size_t asked = column_of(run, traffic, "radio/*/traffic", "asked", "delivered");
+  const std::size_t arrived = column_of(run, traffic, "radio/*/traffic", "delivered", "delivered");
   double of_all = 0, sum = 0;
   for (std::size_t i = 0; i < traffic.rows(); ++i) of_all += traffic.at(i, asked), sum += traffic.at(i, arrived);
   return of_all > 0 ? sum / of_all : nothing;
@@ -63,11 +64,11 @@ Metric metric_of(const std::string& word, const Simulation& given, const std::st
                 option + ' ' + quote(word) + ": expected TABLE/COLUMN, such as robot/leader/pose/x");
   const std::string path = word.substr(0, slash), name = word.substr(slash + 1);
   const TableView table = given.table(path);
-  const std::string unit = table.table->columns()[column_of(table, path, name, option)].unit;
+  const std::string unit = table.table->columns()[column_of(given, table, path, name, option)].unit;
   return {word, unit, [path, name, option](const Simulation& run, const Positions&) {
             const auto now = run.find_table(path);  // a row that has left has no value
             if (!now) return nothing;
-            const std::size_t column = column_of(*now, path, name, option);
+            const std::size_t column = column_of(run, *now, path, name, option);
             double sum = 0;
             std::size_t rows = 0;
             for (std::size_t row = 0; row < now->rows(); ++row) {

@@ -8,9 +8,7 @@
 namespace muster::cli {
 
 SavedRun::SavedRun(std::string file, const std::optional<std::string>& every, double dt) : file_(std::move(file)) {
-  if (!every) return;
-  if (file_.empty())
-    throw Error(Exit::invalid_input, "--save-every needs --save FILE beside it, into which the state is written");
+  if (!every || file_.empty()) return;
   const double seconds = real_of(*every, "--save-every", "s");
   if (!(seconds >= dt))
     throw Error(Exit::invalid_input, "--save-every: " + *every + " s is less than a tick of " + print_real(dt) +

@@ -10,6 +10,7 @@
 #include "text/number.hpp"
 #include "text/unit_words.hpp"
 #include "verbs.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster::cli {
 namespace {
@@ -50,7 +51,8 @@ void exchange_plugin(World& world, const Variation& variation, const Word& word,
                      const std::vector<std::string>& instances) {
   if (std::find(instances.begin(), instances.end(), variation.path) == instances.end())
     throw invalid(variation.place, "no instance of " + world.file.string() + " is called " + quote(variation.path) +
-                                       "; " + suggest(variation.path, instances) +
+                                       which_is(world, variation.path, "instance") + "; " +
+                                       suggest(variation.path, instances) +
                                        plugin_hint(variation.path, whose_plugin(world.instances, variation.path)));
   exchange(world, exchange_of(variation.path, word.text), instances, word.place.text());
 }

@@ -7,6 +7,8 @@
 
 namespace muster::description {
 
+using Eigen::Vector3d;
+
 namespace {
 
 constexpr double body_largest = 20;          // m, of a shape
@@ -51,7 +53,7 @@ std::vector<Eigen::Vector3d> low_points(const Shape& shape) {
 
 class BodyDoubts {
  public:
-  BodyDoubts(const Source& source, Robot& robot) : source_(source), robot_(robot) {}
+  BodyDoubts(const Source& source, bool is_mjcf, Robot& robot) : source_(source), is_mjcf_(is_mjcf), robot_(robot) {}
 
   void sizes_of_links() {
     for (const Link& link : robot_.links) {
@@ -81,6 +83,30 @@ class BodyDoubts {
       if (sensor.laser.max_range > body_longest_range)
         warn(0, "sensor '" + sensor.name + "': a range of " + print_number(sensor.laser.max_range) +
                     " m; are these millimetres?");
+    }
+  }
+
+  // A wheel's cylinder that does not lie about the axle: no engine rolls on it, but its size and picture are wrong.
+  void wheels() {
+    constexpr double aligned = 0.996, alike = 0.1;  // cosine of 5 degrees; of the radius
+    const DifferentialDrive& drive = *robot_.drive;
+    for (std::size_t index = 0; index < robot_.joints.size(); ++index) {
+      const Joint& joint = robot_.joints[index];
+      if (joint.kind != JointKind::continuous && drive.side_of(index) < 0) continue;
+      const Link& link = robot_.links[joint.child];
+      const Shape* wrong = nullptr;
+      for (const Shape& shape : link.shapes) {
+        const auto* cylinder = std::get_if<Cylinder>(&shape.geometry);
+        const Vector3d axis = shape.pose.linear().col(2);
+        if (!cylinder || std::abs(axis.dot(joint.axis)) > aligned) {
+          wrong = nullptr;  // the tyre, and what else is there may lie as it likes
+          break;
+        }
+        const double front = drive.steering ? drive.steering->radius : drive.wheel_radius;
+        for (const double wheel : {drive.wheel_radius, front})
+          if (std::abs(cylinder->radius - wheel) < alike * wheel) wrong = &shape;
+      }
+      if (wrong) turned(link, joint, *wrong);
     }
   }
 
@@ -127,6 +153,25 @@ class BodyDoubts {
   }
 
  private:
+  void turned(const Link& link, const Joint& joint, const Shape& cylinder) {
+    const auto text = [](const Vector3d& v) {
+      const auto clean = [](double c) { return print_number(std::abs(c) < 1e-3 ? 0 : std::round(c * 1000) / 1000); };
+      return clean(v.x()) + ' ' + clean(v.y()) + ' ' + clean(v.z());
+    };
+    // Roll and pitch that lay z along the axle, and the other way round where the roll would be below 0.
+    const Vector3d way = joint.axis.y() > 0 ? Vector3d(-joint.axis) : joint.axis;
+    const double roll = std::asin(std::clamp(-way.y(), -1.0, 1.0));
+    const double pitch = std::hypot(way.x(), way.z()) < 1e-9 ? 0 : std::atan2(way.x(), way.z());
+    const Vector3d middle = cylinder.pose.translation();
+    warn(link.line,
+         "link '" + link.name + "': its collision cylinder lies along " + text(cylinder.pose.linear().col(2)) +
+             ", and its joint '" + joint.name + "' turns about " + text(joint.axis) +
+             ", so that the wheel stands on end; expected " +
+             (is_mjcf_ ? "its <geom> turned, such as by euler=\"90 0 0\" (degrees)"
+                       : "<origin " + (middle.norm() > 0 ? "xyz=\"" + text(middle) + "\" " : "") + "rpy=\"" +
+                             print_exactly(roll) + " " + print_exactly(pitch) + " 0\"/> in its <collision>"));
+  }
+
   static double rounded(double metres) { return std::round(metres * 1000) / 1000; }
 
   // Line 0: of the file as a whole.
@@ -135,16 +180,18 @@ class BodyDoubts {
   }
 
   const Source& source_;
+  const bool is_mjcf_;
   Robot& robot_;
 };
 
 }  // namespace
 
-void warn_of_body(const Source& source, bool has_shapes, Robot& robot) {
-  BodyDoubts doubts(source, robot);
+void warn_of_body(const Source& source, bool is_mjcf, bool has_shapes, Robot& robot) {
+  BodyDoubts doubts(source, is_mjcf, robot);
   doubts.sizes_of_links();
   doubts.lasers();
   if (!robot.drive) return;
+  doubts.wheels();
   doubts.torque();
   if (has_shapes) doubts.support();
 }

@@ -7,6 +7,6 @@
 namespace muster::description {
 
 // After all is read. Without shapes (Meshes::skip) nothing is said of where it stands.
-void warn_of_body(const Source& source, bool has_shapes, Robot& robot);
+void warn_of_body(const Source& source, bool is_mjcf, bool has_shapes, Robot& robot);
 
 }  // namespace muster::description

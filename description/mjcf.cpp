@@ -39,7 +39,7 @@ class Reader {
     frame.translation().x() = frame.translation().y() = 0;
     add_root(body, frame);
     read_actuators();
-    warn_of_degrees(root_);
+    mjcf::warn_of_angles(source_, values_, root_, robot_.warnings);
     note_rest();
     warn();
     return std::move(robot_);
@@ -261,23 +261,6 @@ class Reader {
                               " is in degrees, MuJoCo's default; are these radians? expected range=\"" +
                               print_number(lower / degree) + ' ' + print_number(upper / degree) +
                               "\", or <compiler angle=\"radian\"/> of all angles");
-  }
-
-  // Turns of bodies and geoms beyond a whole one, where the file says that its angles are radians.
-  void warn_of_degrees(const XMLElement& element) {
-    constexpr double turn = 6.283185307179586, degree = turn / 360;
-    const char* given = element.Attribute("euler");
-    const auto angles = given && values_.angle(1) == 1 ? parse_numbers(given) : std::nullopt;
-    if (angles && std::any_of(angles->begin(), angles->end(), [&](double a) { return std::abs(a) > turn; })) {
-      std::string meant;
-      for (const double angle : *angles) meant += (meant.empty() ? "" : " ") + print_number(angle * degree);
-      robot_.warnings.push_back(place(element) + "<" + element.Name() + "> euler=\"" + given +
-                                "\" is beyond a whole turn in radians, which the file has (angle=\"radian\"); are "
-                                "these degrees? expected euler=\"" +
-                                meant + "\", or <compiler angle=\"degree\"/> of all angles");
-    }
-    for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
-      warn_of_degrees(*child);
   }
 
   // What an actuator can do is that of its joint: a drive takes it from there.

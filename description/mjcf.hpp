@@ -76,6 +76,10 @@ using NotTaken = std::set<std::string>;
 Geom read_geom(const Source& source, const Values& values, const Values::Element& element, Meshes meshes,
                const std::map<std::string, const tinyxml2::XMLElement*>& mesh_assets, NotTaken& not_taken);
 
+// Warns of turns of bodies and shapes that look like those of the other unit.
+void warn_of_angles(const Source& source, const Values& values, const tinyxml2::XMLElement& root,
+                    std::vector<std::string>& warnings);
+
 }  // namespace mjcf
 
 }  // namespace muster::description

@@ -375,7 +375,7 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
   if (!is_mjcf) warn_of_doubts(source, root, robot);
   if (more.RootElement()) warn_of_blind_lasers(fittings, *more.RootElement(), robot);
   if (!is_mjcf) warn_of_blind_lasers(source, root, robot);
-  warn_of_body(source, meshes != Meshes::skip, robot);
+  warn_of_body(source, is_mjcf, meshes != Meshes::skip, robot);
   return robot;
 }
 

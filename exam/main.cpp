@@ -63,6 +63,18 @@ std::filesystem::path reports_of(const Arguments& arguments, const std::filesyst
   return at == arguments.end() ? exam / "reports" : std::filesystem::path(at->second[0]);
 }
 
+// Throws where options of a generator are given, naming all of them.
+void refuse_of_generators(const Arguments& arguments) {
+  std::vector<std::string> given;
+  for (const auto& [option, values] : options_of_generators())
+    if (arguments.contains(option)) given.push_back(option);
+  if (given.empty()) return;
+  const std::string last = given.back();
+  given.pop_back();
+  throw std::invalid_argument(given.empty() ? last + " needs --generator"
+                                            : fmt::format("{} and {} need --generator", fmt::join(given, ", "), last));
+}
+
 int run(int argc, char** argv) {
   Arguments known = options_of_generators();
   known.merge(Arguments{{"", {}}, {"--reports", {"a folder"}}, {"--command", {"a command"}}, {"--jobs", {"a number"}}});
@@ -73,8 +85,7 @@ int run(int argc, char** argv) {
   if (arguments.contains("--generator"))
     make_cases(arguments, given->second[0], true);
   else
-    for (const auto& [option, values] : options_of_generators())
-      if (arguments.contains(option)) throw std::invalid_argument(option + " needs --generator");
+    refuse_of_generators(arguments);
   RunOrder order{given->second[0], reports_of(arguments, given->second[0]), "", 1};
   if (const auto at = arguments.find("--command"); at != arguments.end()) order.command = at->second[0];
   if (order.command.empty()) order.command = default_command();

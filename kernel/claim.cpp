@@ -191,6 +191,14 @@ void check_disguise(const Claim& claim, const Instance& instance, const Standard
                          expected_sensed(*truth, standard));
 }
 
+// `write<Command>("robot/{robot}/command")`, as the source is to have it.
+std::string own_row_of(const Claim& claim) {
+  const char* how = claim.kind == MUSTER_READ ? "read" : claim.kind == MUSTER_ADD ? "add" : "write";
+  const std::string type = row_type(claim.columns.text());
+  return std::string(claim.kind == MUSTER_MODIFY ? "modify" : how) + (type.empty() ? "<...>" : '<' + type + '>') +
+         "(\"" + claim.name.set + "/{robot}/" + claim.name.quantity + "\")";
+}
+
 }  // namespace
 
 // Private tables are the instance's own memory. Quantities that are not standard are checked when the world is linked,
@@ -213,12 +221,23 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
                            ", which is truth; a controller reads what comes out of the last stage");
   const std::string own = robot < 0 ? "" : around.board->find_set("robot")->names[static_cast<std::size_t>(robot)];
   if (robot >= 0 && claim.name.row != own)
-    throw instance.refused(what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row");
+    throw instance.refused(what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row, " +
+                           own_row_of(claim) + " in its source");
 }
 
 namespace {
 
-std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Column& column, Set& set) {
+// `, which is a wall` of a name that a table gives for something else.
+std::string of_other_set(const Blackboard& board, const Set& wanted, const std::string& name) {
+  for (const auto& [set, rows] : board.sets()) {
+    if (rows.get() != &wanted && set.find('/') == set.npos && rows->is_named() && rows->find(name) >= 0)
+      return ", which is a " + set;
+  }
+  return "";
+}
+
+std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Column& column, const Blackboard& board) {
+  Set& set = *board.find_set(column.reference);
   const auto names = table.texts(at, {column.nullable, false});
   std::vector<double> of_level;
   for (std::size_t level = 0; level < names.levels.size(); ++level) {
@@ -231,8 +250,9 @@ std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Co
     const int row = set.find(name);
     if (row < 0) {
       const auto first = std::find(names.level.begin(), names.level.end(), level) - names.level.begin();
-      throw invalid(table.place(static_cast<std::size_t>(first), at),
-                    "no " + set.name + " is called " + quote(name) + "; " + suggest(name, set.names));
+      throw invalid(table.place(static_cast<std::size_t>(first), at), "no " + set.name + " is called " + quote(name) +
+                                                                          of_other_set(board, set, name) + "; " +
+                                                                          suggest(name, set.names));
     }
     of_level.push_back(row);
   }
@@ -273,7 +293,7 @@ std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const 
     if (!column.nullable || table.find(column.name)) {
       const auto at = table.require(column.name, column.unit);
       values = column.reference.empty() ? table.reals(at, {column.nullable, column.infinite})
-                                        : row_numbers(table, at, column, *board.find_set(column.reference));
+                                        : row_numbers(table, at, column, board);
     }
     for (std::size_t r = 0; r < values.size(); ++r)
       cells->data[r * columns.size() + c] = std::isnan(values[r]) ? null() : values[r];

@@ -11,6 +11,7 @@
 #include "needed_attribute.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 #include "world_file/params.hpp"
 
 namespace muster {
@@ -109,7 +110,8 @@ void Instance::check_attributes() {
   const FindRow find_row = [&](const std::string& set, const std::string& row, const Place& place) -> double {
     const Set* found = around_.board->find_set(set);
     if (!found || found->find(row) < 0)
-      throw invalid(place, "no " + set + " is called " + quote(row) + "; " +
+      throw invalid(place, "no " + set + " is called " + quote(row) +
+                               (around_.world ? which_is(*around_.world, row, set) : "") + "; " +
                                (found && !found->names.empty() ? suggest(row, found->names) : "the world has none") +
                                (means_all(row) && asked && !(asked->flags & MUSTER_REQUIRED)
                                     ? "; for that, leave " + quote(asked->name) + " out (" + asked->help + ')'

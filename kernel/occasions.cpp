@@ -13,6 +13,7 @@
 #include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 #include "world_file/params.hpp"
 
 namespace muster {
@@ -46,13 +47,26 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-std::size_t column_of(const Table& table, const std::string& name) {
+std::string column_elsewhere(const Blackboard& board, const Table& table, const std::string& name) {
+  std::string found;
+  std::size_t count = 0;
+  constexpr std::size_t most = 3;
+  for (const auto& [path, other] : board.tables()) {
+    if (&other->set() != &table.set() || path.find('@') != path.npos || other->columns().find(name) < 0) continue;
+    if (++count <= most) found += (found.empty() ? "" : ", ") + path;
+  }
+  const bool is_turn = name == "yaw" || name == "heading" || name == "theta" || name == "pitch" || name == "roll";
+  return (found.empty() ? "" : "; " + quote(name) + " is a column of " + found) +
+         (is_turn && table.columns().find("qw") >= 0 ? "; the turn here is the quaternion qw, qx, qy, qz" : "");
+}
+
+std::size_t column_of(const Blackboard& board, const Table& table, const std::string& name) {
   const int column = table.columns().find(name);
   if (column >= 0) return static_cast<std::size_t>(column);
   std::vector<std::string> valid;
   for (std::size_t c = 0; c < table.width(); ++c) valid.push_back(table.columns()[c].name);
-  throw Error(Exit::invalid_input,
-              "the table " + table.name() + " has no column " + quote(name) + "; " + suggest(name, valid));
+  throw Error(Exit::invalid_input, "the table " + table.name() + " has no column " + quote(name) + "; " +
+                                       suggest(name, valid) + column_elsewhere(board, table, name));
 }
 
 // The numbers that a condition looks at: of all rows that are there where its row is a star; of a pair of radios none
@@ -76,7 +90,7 @@ std::vector<double> Simulation::looked_at(const Condition& condition) const {
     throw Error(Exit::invalid_input, quote(condition.path) + ": rows of " + set.name +
                                          " have no names; expected a set such as robot, radio or door, or "
                                          "link/FROM/TO/QUANTITY/COLUMN");
-  const std::size_t c = column_of(*view.table, column);
+  const std::size_t c = column_of(board_, *view.table, column);
   std::vector<double> values;
   for (std::size_t r = 0; r < view.rows(); ++r) {
     const std::size_t row = view.row >= 0 ? static_cast<std::size_t>(view.row) : r;
@@ -90,11 +104,12 @@ std::vector<double> Simulation::of_link(const std::string& from, const std::stri
   const Set& radios = *board_.find_set("radio");
   for (const auto& name : {from, to}) {
     if (radios.find(name) < 0)
-      throw Error(Exit::invalid_input, "no radio is called " + quote(name) + "; " + suggest(name, radios.names));
+      throw Error(Exit::invalid_input, "no radio is called " + quote(name) + which_is(world_, name, "radio") + "; " +
+                                           suggest(name, radios.names));
   }
   const TableView asked = table("link/*/" + quantity), ends = table("link/*/ends"),
                   endpoints = table("endpoint/*/radio");
-  const std::size_t c = column_of(*asked.table, column);
+  const std::size_t c = column_of(board_, *asked.table, column);
   const auto is = [&](double end, const std::string& name) {
     return endpoints.at(static_cast<std::size_t>(end), 0) == radios.find(name);
   };

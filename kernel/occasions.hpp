@@ -25,7 +25,10 @@ void at_place(const Place& place, const Act& act) {
 // "link/base/rover/rssi/rssi" as its parts.
 std::vector<std::string> parts_of(const std::string& path);
 
+// `; "yaw" is a column of robot/*/odometry` behind the refusal of a column: other tables of the same set have it.
+std::string column_elsewhere(const Blackboard& board, const Table& table, const std::string& name);
+
 // The column of this name; throws with the nearest one.
-std::size_t column_of(const Table& table, const std::string& name);
+std::size_t column_of(const Blackboard& board, const Table& table, const std::string& name);
 
 }  // namespace muster

@@ -11,6 +11,7 @@
 #include "text/doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster {
 namespace {
@@ -20,7 +21,7 @@ std::string unit_of(const Simulation& run, const Condition& condition) {
   const auto parts = parts_of(condition.path);
   const bool is_link = parts.size() == 5 && parts[0] == "link";
   const auto view = run.table(is_link ? "link/*/" + parts[3] : condition.path.substr(0, condition.path.rfind('/')));
-  return view.table->columns()[column_of(*view.table, parts.back())].unit;
+  return view.table->columns()[column_of(run.board(), *view.table, parts.back())].unit;
 }
 
 }  // namespace
@@ -151,6 +152,9 @@ void Simulation::rehearse(const RowChange& planned, const std::vector<Instance*>
     const Set *set = board_.find_set(planned.sets.front()), *robots = board_.find_set("robot");
     if (planned.sets.size() == 1 && robots->find(planned.row) >= 0)
       throw Error(Exit::invalid_input, quote(planned.row) + " is a robot; expected robot=\"" + planned.row + '"');
+    if (planned.sets.size() > 1 && kind_of_name(world_, planned.row, "robot") == "station")
+      throw Error(Exit::invalid_input,
+                  quote(planned.row) + " is a station; expected <leave station=\"" + planned.row + "\"/>");
     if (!set || set->find(planned.row) < 0) living(planned.sets.front(), planned.row);  // throws with the nearest name
     return;
   }

@@ -10,6 +10,7 @@
 #include "clip_doubts.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster {
 
@@ -213,8 +214,9 @@ TableView Simulation::table(const std::string& name) const {
     const int number = table && table->set().is_named() ? table->set().find(row) : -1;
     if (number >= 0) return {table, number};
     if (table && table->set().is_named())
-      throw Error(Exit::invalid_input,
-                  "there is no " + table->set().name + ' ' + quote(row) + "; " + suggest(row, table->set().names));
+      throw Error(Exit::invalid_input, "there is no " + table->set().name + ' ' + quote(row) +
+                                           which_is(world_, row, table->set().name) + "; " +
+                                           suggest(row, table->set().names));
   }
   throw Error(Exit::invalid_input, "there is no table " + quote(name) + "; " + suggest_table(name));
 }

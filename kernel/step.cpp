@@ -9,6 +9,7 @@
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster {
 namespace {
@@ -208,21 +209,22 @@ Set& live_set(const Blackboard& board, const std::string& name) {
               "rows neither join nor leave " + quote(name) + "; expected a live set, such as \"robot\"");
 }
 
-std::size_t living_row(const Set& set, const std::string& name) {
+std::size_t living_row(const World& world, const Set& set, const std::string& name) {
   const int row = set.find(name);
   if (row >= 0 && set.alive[static_cast<std::size_t>(row)]) return static_cast<std::size_t>(row);
   std::vector<std::string> there;
   for (std::size_t r = 0; r < set.names.size(); ++r) {
     if (set.alive[r]) there.push_back(set.names[r]);
   }
-  throw Error(Exit::invalid_input, "no " + set.name + " is called " + quote(name) + "; " + suggest(name, there));
+  throw Error(Exit::invalid_input, "no " + set.name + " is called " + quote(name) + which_is(world, name, set.name) +
+                                       "; " + suggest(name, there));
 }
 
 }  // namespace
 
 void Simulation::join(const std::string& set, const std::string& name, const std::string& like) {
   Set& to = live_set(board_, set);
-  const auto row = static_cast<int>(living_row(to, like));
+  const auto row = static_cast<int>(living_row(world_, to, like));
   if (!is_name(name))
     throw Error(Exit::invalid_input, quote(name) + " is not a name; expected letters, digits, _, - and .");
   if (!to.add(name, row))
@@ -232,12 +234,12 @@ void Simulation::join(const std::string& set, const std::string& name, const std
 }
 
 void Simulation::living(const std::string& set, const std::string& name) const {
-  living_row(live_set(board_, set), name);
+  living_row(world_, live_set(board_, set), name);
 }
 
 void Simulation::leave(const std::string& set, const std::string& name) {
   Set& from = live_set(board_, set);
-  from.alive[living_row(from, name)] = 0;
+  from.alive[living_row(world_, from, name)] = 0;
   note(set + ' ' + quote(name) + " leaves");
 }
 

@@ -7,6 +7,7 @@
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 #include "world_file/params.hpp"
 #include "world_file/rows.hpp"
 
@@ -18,7 +19,8 @@ std::size_t Simulation::find(const std::string& instance) const {
     if (instances_[i]->name() == instance) return i;
     valid.push_back(instances_[i]->name());
   }
-  throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + "; " + suggest(instance, valid) +
+  throw Error(Exit::invalid_input, "no instance is called " + quote(instance) + which_is(world_, instance, "instance") +
+                                       "; " + suggest(instance, valid) +
                                        plugin_hint(instance, whose_plugin(world_.instances, instance)));
 }
 
@@ -219,8 +221,10 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
   for (const std::string& fault : {fixed_attribute_of_row(world_, standard_, path), state_fault(*this, path)}) {
     if (!fault.empty()) throw Error(Exit::invalid_input, fault);
   }
-  throw Error(Exit::invalid_input,
-              unknown_parameter(path, all, whose_plugin(world_.instances, path.substr(0, path.rfind('/')))));
+  const std::string owner = path.substr(0, path.rfind('/'));
+  const std::string kind = owner.find('/') != owner.npos || owner == path ? "" : which_is(world_, owner);
+  throw Error(Exit::invalid_input, unknown_parameter(path, all, whose_plugin(world_.instances, owner)) +
+                                       (kind.empty() || has(owner) ? "" : "; it begins with " + quote(owner) + kind));
 }
 
 namespace {

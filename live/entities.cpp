@@ -7,6 +7,7 @@
 #include "text/error.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/kinds.hpp"
 
 namespace muster::live {
 namespace {
@@ -79,7 +80,8 @@ std::vector<std::string> SimulationInterfaces::entities() const {
 bool SimulationInterfaces::is_there(const std::string& entity, const Answer& answer) {
   const auto names = entities();
   if (std::find(names.begin(), names.end(), entity) != names.end()) return true;
-  answer(outcome(not_found, "no robot is called " + quote(entity) + "; " + suggest(entity, names)));
+  answer(outcome(not_found, "no robot is called " + quote(entity) + which_is(control_.run().world(), entity, "robot") +
+                                "; " + suggest(entity, names)));
   return false;
 }
 

@@ -33,7 +33,7 @@ std::string file_in(const std::filesystem::path& folder) {
   if (files.empty() && has_sqlite)
     return "; expected an MCAP file, and it has none: its .db3 is a bag in SQLite, which ros2 bag convert writes anew "
            "with storage_id: mcap";
-  if (files.empty()) return "; expected an MCAP file, and it has none";
+  if (files.empty()) return "; expected an MCAP file, and it has none (muster run WORLD --mcap FILE writes one)";
   return files.size() == 1 ? "; expected the MCAP file in it, " + files[0]
                            : "; expected one of its MCAP files, such as " + files[0];
 }

@@ -14,6 +14,9 @@ namespace muster {
 // range.
 std::optional<double> parse_real(std::string_view text);
 
+// An empty text, and the words of others for a value that is missing: nan, NA, null.
+bool stands_for_nothing(std::string_view text);
+
 // The whole text as a decimal integer of 64 bits, under the same rules.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
@@ -28,5 +31,8 @@ std::string print_real(double value);
 std::string why_not_real(std::string_view text);
 std::string why_not_integer(std::string_view text);
 std::string why_not_reals(std::string_view text, std::size_t n);
+
+// "3 2 0" of "3, 2, 0" and "[3; 2; 0]", which parse_reals refuses; empty where it is no such list of n numbers.
+std::string reals_as_meant(std::string_view text, std::size_t n);
 
 }  // namespace muster

@@ -9,6 +9,7 @@
 #include "file_kind.hpp"
 #include "names.hpp"
 #include "number.hpp"
+#include "unit_words.hpp"
 
 namespace muster {
 namespace {
@@ -323,7 +324,7 @@ std::vector<double> TextTable::reals(std::size_t column, Allow allow) const {
     } else if (cell_text(cell) == columns_[column].label()) {
       throw invalid(place(row, 0), "the line repeats the header, as in two tables joined; expected one header");
     } else {
-      fail_cell(row, column, why_not_number(cell));
+      fail_cell(row, column, why_not_number(cell, allow) + other_unit_hint(columns_[column].unit, cell));
     }
   }
   return values;
@@ -371,10 +372,12 @@ void TextTable::fail_cell(std::size_t row, std::size_t column, const std::string
   throw invalid(place(row, column), "column " + quote(columns_[column].label()) + ": " + what);
 }
 
-std::string TextTable::why_not_number(std::string_view raw) {
+std::string TextTable::why_not_number(std::string_view raw, Allow allow) {
   if (raw.empty()) return "the cell is empty; expected a number";
   const std::string text = cell_text(raw);
   if (parse_real(text)) return quote(text) + " is in quotes, so it is a name; expected a number";
+  if (allow.empty && stands_for_nothing(text))
+    return quote(text) + " is not a number; expected an empty cell where there is no value (muster import makes it so)";
   return why_not_real(text);
 }
 

@@ -85,7 +85,7 @@ class TextTable {
   Place raw_place(std::size_t line, std::size_t column) const;
   [[noreturn]] void fail_cell(std::size_t row, std::size_t column, const std::string& what) const;
   static std::string cell_text(std::string_view raw);
-  static std::string why_not_number(std::string_view raw);
+  static std::string why_not_number(std::string_view raw, Allow allow);
 
   TextFile file_;
   std::vector<TextColumn> columns_;

@@ -64,6 +64,8 @@ constexpr std::array words = {
     Word{"N", "N", 1},
     Word{"N", "kN", 1e3},
     Word{"dB", "dB", 1},
+    Word{"dB", "dBi", 1},
+    Word{"dBi", "dB", 1},
     Word{"dBm", "dBm", 1},
 };
 
@@ -92,6 +94,7 @@ std::optional<double> in_unit(std::string_view unit, std::string_view text) {
   while (!word.empty() && word.front() == ' ') word.remove_prefix(1);
   for (const Word& one : words)
     if (one.unit == unit && one.word == word) return value * one.factor;
+  if (!unit.empty() && word == unit) return value;
   return std::nullopt;
 }
 
@@ -99,9 +102,12 @@ std::string other_unit_hint(std::string_view unit, std::string_view text) {
   if (std::string power = power_hint(unit, text); !power.empty()) return power;
   const auto value = in_unit(unit, text);
   const std::string end = ' ' + std::string(unit);
-  if (!value || text.ends_with(end) ||
-      (unit.size() < text.size() && text.ends_with(unit) && parse_real(text.substr(0, text.size() - unit.size()))))
-    return "";
+  if (!value) return "";
+  if (text.ends_with(unit)) {
+    std::string_view number = text.substr(0, text.size() - unit.size());
+    while (number.ends_with(' ')) number.remove_suffix(1);
+    if (parse_real(number)) return "; " + std::string(text) + " is written " + std::string(number);
+  }
   std::array<char, 32> digits;
   const auto last =
       std::to_chars(digits.data(), digits.data() + digits.size(), *value, std::chars_format::general, 10).ptr;

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "kinds.hpp"
 #include "params.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -62,6 +63,8 @@ Condition read_condition(const XmlAttribute& given) {
   if (words.back().empty()) words.pop_back();
   const bool is_joined =
       std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "and" || word == "or"; });
+  if (words.size() == 4 && parse_real(words[2]))  // "below -60 dBm"
+    throw refuse(why_not_real(words[2] + ' ' + words[3]) + "; expected a number to compare with");
   if (words.size() != 3)
     throw refuse(quote(given.value) + " is no condition; expected " + a_condition +
                  (is_joined ? "; one comparison in each: \"and\" and \"or\" are not known" : ""));
@@ -174,10 +177,11 @@ void check_occasions(const World& world) {
     for (const auto& change : occasion.plugins) {
       if (first.count(change.instance)) continue;
       const std::string owner = whose_plugin(world.instances, change.instance);
-      throw invalid(change.instance_place, "no instance is called " + quote(change.instance) +
-                                               (owner.empty() ? "; " + suggest(change.instance, valid)
-                                                              : ", which is the plugin of " + quote(owner) +
-                                                                    "; expected instance=\"" + owner + '"'));
+      throw invalid(
+          change.instance_place,
+          "no instance is called " + quote(change.instance) + which_is(world, change.instance, "instance") +
+              (owner.empty() ? "; " + suggest(change.instance, valid)
+                             : ", which is the plugin of " + quote(owner) + "; expected instance=\"" + owner + '"'));
     }
   }
 }

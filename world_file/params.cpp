@@ -26,7 +26,10 @@ namespace {
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
   if (value < declared.min || value > declared.max)
     refuse(declared, count, given, print_real(value) + " is out of bounds",
-           unit_hint(declared.unit, value, declared.min, declared.max));
+           unit_hint(declared.unit, value, declared.min, declared.max) +
+               (declared.kind == MUSTER_INTEGER && declared.help && *declared.help
+                    ? " (" + std::string(declared.help) + ')'
+                    : ""));
   if (const std::string doubt = unit_doubt(declared.name, declared.unit, value); !doubt.empty())
     warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
 }
@@ -40,6 +43,20 @@ std::string corners_hint(const muster_param& declared, std::size_t count, const 
   std::string all;
   for (const double each : {x0, y0, x1, y0, x1, y1, x0, y1}) all += (all.empty() ? "" : " ") + print_real(each);
   return "; for the rectangle between these two: corners=\"" + all + '"';
+}
+
+// What was meant, as it is to be typed: `; write at="3 2 0"`.
+std::string as_meant(const XmlAttribute& given, const std::string& value) {
+  return value.empty() ? "" : "; write " + given.name + "=\"" + value + '"';
+}
+
+std::string flag_as_meant(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  for (const char* yes : {"true", "yes", "on", "1", "y", "enabled"})
+    if (word == yes) return "true";
+  for (const char* no : {"false", "no", "off", "0", "n", "disabled"})
+    if (word == no) return "false";
+  return "";
 }
 
 double choice_value(const muster_param& declared, const XmlAttribute& given) {
@@ -156,7 +173,8 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
       const auto values = parse_reals(given.value, n);
       if (!values || (count == 1 && !parse_real(given.value)))
         refuse(declared, count, given, count == 1 ? why_not_real(given.value) : why_not_reals(given.value, n),
-               other_unit_hint(declared.unit, given.value) + corners_hint(declared, n, given.value));
+               other_unit_hint(declared.unit, given.value) + corners_hint(declared, n, given.value) +
+                   as_meant(given, count == 1 ? "" : reals_as_meant(given.value, n)));
       for (const double value : *values) check_bounds(declared, count, given, value, warn);
       return *values;
     }
@@ -168,7 +186,7 @@ std::vector<double> attribute_values(const muster_param& declared, int count, co
     }
     case MUSTER_FLAG:
       if (given.value != "true" && given.value != "false")
-        refuse(declared, count, given, quote(given.value) + " is neither");
+        refuse(declared, count, given, quote(given.value) + " is neither", as_meant(given, flag_as_meant(given.value)));
       return {given.value == "true" ? 1.0 : 0.0};
     case MUSTER_CHOICE:
       return {choice_value(declared, given)};

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "kinds.hpp"
 #include "params.hpp"
 #include "text/columns.hpp"
 #include "text/doubts.hpp"
@@ -178,8 +179,8 @@ class RowReader {
     const auto found = numbers_.find(set + '/' + row);
     if (found != numbers_.end()) return found->second;
     const auto valid = names_.find(set);
-    if (valid == names_.end()) throw invalid(place, "no " + set + " is called " + quote(row) + "; the world has none");
-    throw invalid(place, "no " + set + " is called " + quote(row) + "; " + suggest(row, valid->second));
+    throw invalid(place, "no " + set + " is called " + quote(row) + which_is(world_, row, set) + "; " +
+                             (valid == names_.end() ? "the world has none" : suggest(row, valid->second)));
   }
 
   FindRow finder() const {

@@ -19,13 +19,6 @@ std::string_view trimmed(std::string_view text) {
   return first == text.npos ? std::string_view() : text.substr(first, last - first + 1);
 }
 
-constexpr std::string_view words_for_nothing[] = {"",    "nan",  "NaN",  "NAN",  "NA",  "N/A",
-                                                  "n/a", "null", "NULL", "None", "none"};
-
-bool means_nothing(std::string_view cell) {
-  return std::find(std::begin(words_for_nothing), std::end(words_for_nothing), cell) != std::end(words_for_nothing);
-}
-
 // The number of a column that is called column3; 0 if it is called otherwise.
 std::size_t number_in(const std::string& column) {
   const auto number = column.rfind("column", 0) == 0 ? parse_integer(column.substr(6)) : std::nullopt;
@@ -167,7 +160,7 @@ std::size_t ForeignTable::take_header(const std::vector<Line>& lines) {
   }
   const bool numbers =
       std::all_of(first.begin(), first.end(),
-                  [](std::string_view cell) { return means_nothing(cell) || parse_real(cell).has_value(); }) &&
+                  [](std::string_view cell) { return stands_for_nothing(cell) || parse_real(cell).has_value(); }) &&
       std::any_of(first.begin(), first.end(), [](std::string_view cell) { return parse_real(cell).has_value(); });
   if (!numbers) {
     name_columns(first);
@@ -298,7 +291,9 @@ std::size_t ForeignTable::require(const std::string& column, const Place& for_wh
   return first;
 }
 
-bool ForeignTable::is_nothing(std::size_t row, std::size_t column) const { return means_nothing(text(row, column)); }
+bool ForeignTable::is_nothing(std::size_t row, std::size_t column) const {
+  return stands_for_nothing(text(row, column));
+}
 
 // True where the first row has names of units, at least two of them, and otherwise nothing.
 bool ForeignTable::is_line_of_units() const {
@@ -320,7 +315,7 @@ std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, 
   if (shape_.decimal_comma && cell.find('.') == cell.npos) std::replace(cell.begin(), cell.end(), ',', '.');
   if (cell.size() > 1 && cell[0] == '+') cell.erase(0, 1);  // as loggers print it
   if (const auto value = parse_real(cell)) return value;
-  if (means_nothing(cell)) return std::nullopt;
+  if (stands_for_nothing(cell)) return std::nullopt;
   if (row == 0 && is_line_of_units())
     throw invalid(place(row), "the line holds units and no reading; expected it away: sed '" +
                                   std::to_string(place(row).line) + "d' FILE, and the units in the rules of the map");

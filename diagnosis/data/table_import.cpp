@@ -10,6 +10,7 @@
 
 #include "diagnosis/data/dataset.hpp"
 #include "diagnosis/data/import_source.hpp"
+#include "diagnosis/data/rule_checks.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "text/text_table_writer.hpp"
@@ -66,7 +67,7 @@ class Importer {
     for (std::size_t f = 0; f < source_.files().size(); ++f) {
       for (std::size_t row = 0; row < source_.files()[f].rows(); ++row) rows_.push_back({f, row});
     }
-    for (const ColumnRule& rule : map_.columns) refuse_quoted_column(rule);
+    for (const ColumnRule& rule : map_.columns) refuse_quoted_column(rule, source_.files());
     find_origin();
     leave_out_rows_without_place();
     read_times();
@@ -139,24 +140,9 @@ class Importer {
     return result + words.substr(from);
   }
 
-  // A name for all rows that is also a column of names: quotes are meant for one name, and not for the column.
-  void refuse_quoted_column(const ColumnRule& rule) const {
-    if (!rule.is_name || rule.name.empty()) return;
-    for (const ForeignTable& table : source_.files()) {
-      if (!table.has(rule.name)) continue;
-      const std::size_t column = table.require(rule.name, rule.place);
-      for (std::size_t row = 0; row < table.rows(); ++row) {
-        if (table.text(row, column).empty() || parse_real(table.text(row, column))) continue;
-        throw invalid(rule.place, quote(rule.name) + " in quotes is the same name in all rows, and " + table.file() +
-                                      " has a column " + rule.name + ", with names such as " +
-                                      quote(table.text(row, column)) + "; expected " + rule.column.name + " = name " +
-                                      rule.name + ", or another name");
-      }
-    }
-  }
-
   // Checks a rule against the format's definition of its column.
   void check_rule(const ColumnRule& rule) const {
+    refuse_exchanged(rule, source_.files());
     const auto known = reading_columns().find(rule.column.name);
     const auto made_in = [&](const std::string& unit, const std::string& what) {
       if (rule.column.unit != unit)

@@ -207,6 +207,12 @@ std::vector<std::string> write_regression(const Diagnosis& d, const fs::path& wo
 std::vector<Checked> check_regression(const fs::path& from, const Library::SearchPath& plugins) {
   const fs::path file = fs::is_directory(from) ? from / "regression.json" : from;
   const fs::path folder = file.parent_path();
+  if (fs::is_directory(from) && !fs::exists(file))
+    throw Error(
+        Exit::invalid_input,
+        "--check: " + from.string() +
+            (fs::exists(from / "world.xml") ? " is the folder of a world, and of no diagnosis" : " is no diagnosis") +
+            "; expected the FOLDER that muster diagnose WORLD --data FILE --out FOLDER wrote");
   const Json json = read_json(file);
   std::vector<Checked> out;
   try {

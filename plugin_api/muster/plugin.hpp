@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <iterator>
+#include <muster/first_bytes.hpp>
 #include <muster/plugin_traits.hpp>
 #include <muster/random.hpp>
 #include <muster/rows.hpp>
@@ -128,7 +129,7 @@ class Setup {
   // The CSV file that a parameter names; Row::columns are its columns.
   template <class Row>
   In<Row> file(const char* param) {
-    check_type<Row>();
+    detail::check_row_type<Row>();
     return {claimed(host_->file(host_, param, Row::columns))};
   }
 
@@ -153,13 +154,8 @@ class Setup {
 
  private:
   template <class Row>
-  static constexpr void check_type() {
-    static_assert(detail::is_one_double_a_column<Row>(0),
-                  "a row type has one double for each of its columns: no float, no int, none too few or too many");
-  }
-  template <class Row>
   int claim(uint32_t kind, uint32_t flags, const std::string& table) {
-    check_type<Row>();
+    detail::check_row_type<Row>();
     return claimed(host_->claim(host_, kind, flags, table.c_str(), Row::columns));
   }
   static int claimed(int index) {
@@ -321,19 +317,18 @@ static_assert(sizeof(Param) == sizeof(muster_param), "an array of one is an arra
 
 template <class Plugin>
 struct Held {
+  Held(const muster_host* its_host, Setup& setup) : host(its_host), plugin(setup), first(plugin) {}
   const muster_host* host;
   Plugin plugin;
+  FirstBytes<Plugin, has_const_step<Plugin> && !keeps_only_caches_of<Plugin>> first;
 };
 
-// A step() that is not const can keep state in members, which a snapshot, a restore and a swap lose.
-template <class Plugin>
-void warn_of_state(const muster_host* host) {
-  if (has_const_step<Plugin> || keeps_only_caches_of<Plugin>) return;
+// Members that step() changes are state that a snapshot, a restore and a swap lose.
+inline void warn_of_state(const muster_host* host, const char* why, const char* also) {
   warn(host, "self",
-       std::string("its step() is not const: what it keeps in members is lost where a run is restored or a plugin "
-                   "swapped; expected state in a table, s.write<State>(\"self/state\") and k.last(state), and ") +
-           "void step(const Step& k) const; or, where members hold only what can be computed again, "
-           "static constexpr bool keeps_only_caches = true");
+       std::string("its step() ") + why + ": what it keeps in members is lost where a run is restored or a plugin " +
+           "swapped; expected state in a table, s.write<State>(\"self/state\") and k.last(state), and " + also +
+           "; or, where members hold only what can be computed again, static constexpr bool keeps_only_caches = true");
 }
 
 template <class Plugin>
@@ -341,8 +336,9 @@ void* create(const muster_host* host) {
   Held<Plugin>* made = nullptr;
   guarded(host, [&] {
     Setup setup(host, Params<Plugin>::data, Params<Plugin>::count);
-    made = new Held<Plugin>{host, Plugin(setup)};
-    warn_of_state<Plugin>(host);
+    made = new Held<Plugin>(host, setup);
+    if (!has_const_step<Plugin> && !keeps_only_caches_of<Plugin>)
+      warn_of_state(host, "is not const", "void step(const Step& k) const");
   });
   return made;
 }
@@ -358,6 +354,8 @@ int step(void* self, const muster_tick* tick, const muster_in* in, const muster_
   auto* held = static_cast<Held<Plugin>*>(self);
   const auto body = [&] {
     if constexpr (has_step<Plugin>) held->plugin.step(Step(held->host, tick, in, out));  // else one error says it
+    if (held->first.are_changed(held->plugin))
+      warn_of_state(held->host, "changes a member, though it is const", "no member that is mutable");
   };
   return guarded(held->host, body) ? MUSTER_OK : MUSTER_FAILED;
 }
@@ -386,7 +384,7 @@ const muster_plugin* descriptor() {
 //   static constexpr muster::Param params[] = {...};  optional, as are `manual`, `cannot_hold`, `cause`, `draw`, `law`,
 //   `clip`, `burst`
 //   explicit Plugin(muster::Setup&);                  claims
-//   void step(const muster::Step&) const;             a step that is not const is warned of, unless the struct has
+//   void step(const muster::Step&) const;             a step that changes a member is warned of, unless it has
 //   static constexpr bool keeps_only_caches = true;   members hold only what can be computed again from tables and
 //   files
 #define MUSTER_PLUGIN_IS(Plugin)                                                                    \

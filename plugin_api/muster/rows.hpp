@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 namespace muster {
 namespace detail {
@@ -38,6 +39,52 @@ constexpr bool is_one_double_a_column(int) {
 template <class Row>
 constexpr bool is_one_double_a_column(...) {
   return true;
+}
+
+// What a member of a row is tried with: it becomes a double and nothing else.
+struct OnlyDouble {
+  template <class Member, class = std::enable_if_t<std::is_same_v<Member, double>>>
+  constexpr operator Member() const {
+    return 0;
+  }
+};
+template <class Row, class Members, class = void>
+constexpr bool is_made_of = false;
+template <class Row, std::size_t... member>
+constexpr bool is_made_of<Row, std::index_sequence<member...>,
+                          std::void_t<decltype(Row{(static_cast<void>(member), OnlyDouble())...})>> = true;
+
+// False where a member is a bool, a float or an int: one may fill the place of a double, and be none.
+template <class Row>
+constexpr bool has_only_doubles() {
+  constexpr std::size_t doubles = sizeof(Row) / sizeof(double), most_tried = 64;  // beyond: pixels and the like
+  if constexpr (sizeof(Row) % sizeof(double) == 0 && std::is_aggregate_v<Row> && doubles <= most_tried)
+    return is_made_of<Row, std::make_index_sequence<doubles>>;
+  else
+    return sizeof(Row) % sizeof(double) == 0;
+}
+
+// The columns that a row type states at compile time; else as many as its doubles.
+template <class Row, std::size_t count = column_count(Row::columns)>
+constexpr std::size_t columns_of(int) {
+  return count;
+}
+template <class Row>
+constexpr std::size_t columns_of(...) {
+  return sizeof(Row) / sizeof(double);
+}
+
+template <class Row>
+constexpr void check_row_type() {
+  constexpr bool only_doubles = has_only_doubles<Row>();
+  static_assert(
+      only_doubles,
+      "a row type has one double for each of its columns: no float, no int, no bool; expected double for each "
+      "member, 0 or 1 for what is a bool");
+  constexpr std::size_t columns = columns_of<Row>(0), doubles = only_doubles ? sizeof(Row) / sizeof(double) : columns;
+  static_assert(doubles == columns,
+                "a row type has one double for each of its columns, none too few or too many; compared are its doubles "
+                "and the names in its `columns`");
 }
 
 // A row that a table does not have. The table is named where it is caught, by the claim's number.

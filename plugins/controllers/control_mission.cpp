@@ -74,6 +74,7 @@ struct ControlMission {
       "radio receives. A message that it awaits is answered by \"ok\" and its text. The table self/state has the line\n"
       "of the file that it is at.";
   static constexpr auto phase = MUSTER_CONTROL;
+  static constexpr bool keeps_only_caches = true;  // sent_ is counted anew in each step
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot that does it, heard through the radio of the same name").required(),
       text("mission", "", "an XML file").required(),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plugins/other_kinds.hpp"
 #include "plugins/world_folder.hpp"
 #include "text/doubts.hpp"
 #include "text/names.hpp"
@@ -76,7 +77,7 @@ inline double radio_row(const Setup& setup, const std::string& name, const Place
     valid.emplace_back(host->row_name(host, "radio", row));
     if (valid.back() == name) return row;
   }
-  refuse(place, "no radio is called " + quote(name) + "; " + suggest(name, valid));
+  refuse(place, "no radio is called " + quote(name) + which_is_no_radio(host, name) + "; " + suggest(name, valid));
 }
 
 }  // namespace muster::missions

@@ -27,7 +27,9 @@ gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
-      integer("channel", 1, 1, 13, "20 MHz each, in steps of 5 from 2412 MHz up: what it hears of jammers"),
+      integer(
+          "channel", 1, 1, 13,
+          "of the 2.4 GHz band (none of 5 GHz), 20 MHz each, in steps of 5 from 2412 MHz up: what it hears of jammers"),
       choice("rate", "6|9|12|18|24|36|48|54", "Mbit/s"),
       choice("slot", "long|short", "20 us, as the standard has it without access point; or 9 us"),
       real("busy_threshold", -62, -250, 50, "dBm", "power of any kind above which the channel is busy"),

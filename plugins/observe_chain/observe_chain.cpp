@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "plugins/other_kinds.hpp"
+
 namespace {
 
 using namespace muster;
@@ -83,8 +85,8 @@ struct ObserveChain {
       uint32_t row = 0;
       while (row < host->rows(host, "radio") && host->row_name(host, "radio", row) != name) ++row;
       if (row == host->rows(host, "radio"))
-        throw BadInput("attribute \"chain\": no radio is called \"" + name + "\"; expected some of " +
-                       radios_of(*host));
+        throw BadInput("attribute \"chain\": no radio is called \"" + name + "\"" + which_is_no_radio(host, name) +
+                       "; expected some of " + radios_of(*host));
       result.push_back(row);
     }
     return result;

@@ -29,6 +29,7 @@ struct RobotsDrive {
       "a\n"
       "turn out of reach gives a warning. A mecanum drive also takes robot/*/sideways, a speed to the left.";
   static constexpr auto phase = MUSTER_ACTUATE;
+  static constexpr bool keeps_only_caches = true;  // and what it has told
   static constexpr Param params[] = {
       real("noise", 0, 0, 10, "rad/s", "standard deviation of a wheel's rate from the rate asked for").free()};
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "obstructions.hpp"
+#include "plugins/other_kinds.hpp"
 #include "plugins/periods.hpp"
 
 namespace {
@@ -114,7 +115,8 @@ air, the time that a measurement takes.)";
       if (one == name) return row;
       known += (known.empty() ? "" : ", ") + one;
     }
-    throw BadInput("attribute \"peers\": no radio is called \"" + name + "\"; expected some of " + known);
+    throw BadInput("attribute \"peers\": no radio is called \"" + name + "\"" + which_is_no_radio(s.host(), name) +
+                   "; expected some of " + known);
   }
 
   static std::pair<std::size_t, std::size_t> pair_of(std::size_t a, std::size_t b) { return std::minmax(a, b); }

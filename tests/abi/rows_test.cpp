@@ -20,6 +20,23 @@ struct Many {
   static constexpr const char* columns = "id range[m]*3~";
   double id, range[3];
 };
+struct Flagged {
+  static constexpr const char* columns = "heading[rad] valid";
+  double heading;
+  bool valid;
+};
+struct Counted {
+  static constexpr const char* columns = "heading[rad] count";
+  double heading;
+  long count;
+};
+struct Parts {
+  static constexpr const char* columns = "id x[m] y[m]";
+  double id;
+  struct {
+    double x, y;
+  } at;
+};
 struct Named {
   static const char* columns;  // not known to the compiler
   double x;
@@ -36,6 +53,17 @@ TEST(RowTypes, HaveOneDoubleForEachColumn) {
   static_assert(detail::is_one_double_a_column<Scan>(0) && detail::is_one_double_a_column<Image>(0));
   static_assert(detail::is_one_double_a_column<Many>(0) && detail::is_one_double_a_column<Named>(0));
   static_assert(!detail::is_one_double_a_column<Floats>(0) && !detail::is_one_double_a_column<Few>(0));
+}
+
+// A bool beside a double fills a double's place, and would be read as one.
+TEST(RowTypes, HaveNothingButDoubles) {
+  static_assert(!detail::has_only_doubles<Flagged>() && !detail::has_only_doubles<Counted>());
+  static_assert(!detail::has_only_doubles<Floats>());
+  static_assert(detail::has_only_doubles<Few>() && detail::has_only_doubles<Many>());
+  static_assert(detail::has_only_doubles<Parts>() && detail::has_only_doubles<Named>());
+  static_assert(detail::has_only_doubles<Command>() && detail::has_only_doubles<Scan>());
+  EXPECT_EQ(detail::columns_of<Few>(0), 3u);
+  EXPECT_EQ(detail::columns_of<Named>(0), 1u);
 }
 
 TEST(RowTypes, ARowThatIsNotThereIsNeitherReadNorWritten) {

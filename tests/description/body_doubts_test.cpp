@@ -48,6 +48,23 @@ TEST(BodyDoubts, SayNothingOfACartThatStands) {
   EXPECT_THAT(warnings_of(cart("0.5 0.3 0.1", "-0.05 0 0.2", "0.1", caster)), IsEmpty());
 }
 
+TEST(BodyDoubts, AWheelOnEnd) {
+  const auto with = [](const std::string& origin) {
+    std::string text = cart("0.5 0.3 0.1", "-0.05 0 0.2", "0.1", caster);
+    const std::string lying = "<origin rpy='1.5707963267948966 0 0'/>";
+    return warnings_of(text.replace(text.find(lying), lying.size(), origin));
+  };
+  EXPECT_THAT(with(""), Contains(":3: link 'l': its collision cylinder lies along 0 0 1, and its joint 'l_joint' turns "
+                                 "about 0 1 0, so that the wheel stands on end; expected <origin "
+                                 "rpy=\"1.5707963267948966 0 0\"/> in its <collision>"));
+  EXPECT_THAT(
+      with("<origin xyz='0 0.01 0' rpy='0 1.5708 0'/>"),
+      Contains(HasSubstr("lies along 1 0 0, and its joint 'l_joint' turns about 0 1 0, so that the wheel stands "
+                         "on end; expected <origin xyz=\"0 0.01 0\" rpy=\"1.5707963267948966 0 0\"/>")));
+  EXPECT_THAT(with("<origin rpy='-1.5708 0.3 0'/>"), IsEmpty());  // turned about its axle
+  EXPECT_THAT(with("<origin rpy='1.57 0 0'/>"), IsEmpty());
+}
+
 TEST(BodyDoubts, SizesInMillimetres) {
   EXPECT_THAT(warnings_of(cart("500 300 100", "-0.05 0 0.2", "0.1", caster)),
               Contains(":2: link 'base': a shape of 500 x 300 x 100 m; are these millimetres?"));

@@ -207,10 +207,16 @@ TEST(Mjcf, DegreesWhereTheFileHasRadiansAreAskedAbout) {
   };
   const std::string radians = "<compiler angle='radian'/>";
   EXPECT_EQ(warnings(radians, "90 0 -45"),
-            ":2: <body> euler=\"90 0 -45\" is beyond a whole turn in radians, which the file has (angle=\"radian\"); "
+            ":2: <body> of body 'b': euler=\"90 0 -45\" is beyond a whole turn in radians, which the file has "
+            "(angle=\"radian\"); "
             "are these degrees? expected euler=\"1.571 0 -0.7854\", or <compiler angle=\"degree\"/> of all angles");
   EXPECT_EQ(warnings(radians, "1.5707963 0 -3.14"), "");
   EXPECT_EQ(warnings("", "90 0 -45"), "");
+  for (const auto& [given, degrees] : {std::pair("1.5708 0 0", "90 0 0"), {"0 -0.785 3.14", "0 -45 179.9"}})
+    EXPECT_EQ(warnings("", given), ":2: <body> of body 'b': euler=\"" + std::string(given) +
+                                       "\" is in degrees, MuJoCo's default, and looks like radians; expected euler=\"" +
+                                       degrees + "\", or <compiler angle=\"radian\"/> of all angles");
+  for (const char* of_degrees : {"1.5 0 0", "2 3 0", "0.5 -12.3 0"}) EXPECT_EQ(warnings("", of_degrees), "");
 }
 
 TEST(MjcfFault, IsNamedWithItsLine) {

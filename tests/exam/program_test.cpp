@@ -106,6 +106,7 @@ TEST_F(Program, SaysWhatAForeignGeneratorLacks) {
   EXPECT_EQ(run("make --generator 'true' --seed 1 --cases 1 --out " + out).text,
             "muster_exam make: " + out + "/case_0001: the generator wrote no world.xml\n");
   EXPECT_EQ(run("run " + out + " --seed 1").text, "muster_exam run: --seed needs --generator\n");
+  EXPECT_EQ(run("run " + out + " --seed 1 --cases 3").text, "muster_exam run: --cases and --seed need --generator\n");
 }
 
 TEST_F(Program, MakesCampaignsOfTheField) {

@@ -98,6 +98,10 @@ TEST_F(Planned, FaultsAreToldBeforeTheRun) {
   EXPECT_EQ(error("<set path='mover/add' value='much'/>"),
             "world.xml:5:40: attribute \"value\": \"much\" is not a number; expected a number from -1e+06 to 1e+06 m");
   EXPECT_EQ(error("<leave robot='c'/>"), "world.xml:5:25: no robot is called \"c\"; expected one of a, b");
+  EXPECT_EQ(error("<leave robot='mover'/>"),
+            "world.xml:5:25: no robot is called \"mover\", which is an instance of toy.copy_physics (world.xml:4:1); "
+            "expected one "
+            "of a, b");
   EXPECT_EQ(error("<set path='mover/add'/>"),
             "world.xml:5:11: <set> has no attribute \"value\", which it needs; expected its new value");
   EXPECT_EQ(error("<stop/>"),
@@ -276,6 +280,10 @@ TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
   EXPECT_EQ(when("robot/a/pose/x above 3m"),
             "world.xml:5:11: attribute \"when\": \"3m\" is not a number; \"m\" follows the number: units are fixed "
             "and not written; expected a number to compare with");
+  EXPECT_EQ(when("robot/a/pose/x above 3 km"),
+            "world.xml:5:11: attribute \"when\": \"3 km\" is not a number; \"km\" follows the number: units are fixed "
+            "and not written; expected a number to compare with");
+  EXPECT_THAT(when("robot/a/pose/yaw above 3"), testing::HasSubstr("; the turn here is the quaternion qw, qx, qy, qz"));
   EXPECT_EQ(when("robot/a/pose/u above 3"),
             "world.xml:5:11: the table robot/*/pose has no column \"u\"; expected one of x, y, z, qw, qx, qy, qz");
   EXPECT_EQ(when("robot/c/pose/x above 3"), "world.xml:5:11: there is no robot \"c\"; expected one of a, b");

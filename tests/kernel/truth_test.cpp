@@ -34,13 +34,13 @@ TEST_F(Truth, TruthIsRefused) {
                 for_a_pose);
   EXPECT_EQ(controller("from='robot/b/odometry' from_columns='" + odometry + "'"),
             "world.xml:5:1: c (toy.copy_control): claims \"robot/b/odometry\", but it is bound to the robot \"a\"; "
-            "expected that robot's own row");
+            "expected that robot's own row, read<Odometry>(\"robot/{robot}/odometry\") in its source");
   EXPECT_EQ(controller("from='robot/*/odometry' from_columns='" + odometry + "'"),
             "world.xml:5:1: c (toy.copy_control): claims \"robot/*/odometry\", but it is bound to the robot \"a\"; "
-            "expected that robot's own row");
+            "expected that robot's own row, read<Odometry>(\"robot/{robot}/odometry\") in its source");
   EXPECT_EQ(controller("from='outbox/b/message' from_columns='radio:radio to:radio? payload{}'"),
             "world.xml:5:1: c (toy.copy_control): claims \"outbox/b/message\", but it is bound to the robot \"a\"; "
-            "expected that robot's own row");
+            "expected that robot's own row, read<Outgoing>(\"outbox/{robot}/message\") in its source");
   EXPECT_EQ(controller("from='link/*/level' from_columns='level[dBm]'"),
             "world.xml:5:1: c (toy.copy_control): claims \"link/*/level\", which is truth; a controller knows what its "
             "robot senses: " +

@@ -61,7 +61,8 @@ TEST(KilledRun, GoesOnFromItsLastStateLong) {
 TEST(KilledRun, SaysWhatSavingOnTheWayNeeds) {
   const ProgramFolder folder;
   expect_error(folder.muster({"run", logged, "--save-every", "1"}), 2,
-               "--save-every needs --save FILE beside it, into which the state is written");
+               "muster run: --save-every has no effect without --save; expected --save beside it, or no --save-every; "
+               "see muster run --help");
   expect_error(folder.muster({"run", logged, "--save", "s", "--save-every", "0.01"}), 2,
                "--save-every: 0.01 s is less than a tick of 0.02 s; expected at least that");
   EXPECT_FALSE(std::filesystem::exists(folder / "s"));

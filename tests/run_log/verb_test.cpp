@@ -75,14 +75,16 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "3", "--to", "1"},
           "--from 3 is after --to 1; expected --from 1 --to 3");
   refused({"log", "cut", "a.txt", "-o", "b", "--from", "1min"},
-          "--from: \"1min\" is not a number; \"min\" follows the number; expected seconds: --from 60");
+          "--from: \"1min\" is not a number; \"min\" follows the number: units are fixed and not written; expected "
+          "seconds: --from 60");
   refused({"log", "csv", "a.txt", "--from", "1", "--to", "2"},
           "--from and --to are of cut, not of csv; expected first muster log cut a.txt --from 1 --to 2 -o part.mcap, "
           "then muster log csv part.mcap");
   refused({"log", "info", "a.txt", "-o", "b"},
           "--out is of recover, cut and csv; info writes no file; expected no --out, or info > b");
   std::filesystem::create_directories(folder.path() / "bag");
-  refused({"log", "info", "bag"}, "bag: is a folder; expected an MCAP file, and it has none");
+  refused({"log", "info", "bag"},
+          "bag: is a folder; expected an MCAP file, and it has none (muster run WORLD --mcap FILE writes one)");
   folder.write("bag/bag_0.db3", "x");
   refused(
       {"log", "info", "bag"},
@@ -100,6 +102,9 @@ TEST(LogVerb, RefusesWhatItCannotDo) {
       {"run", world, "--plot", "robot/*/pose/quw", "--out", "o"},
       "--plot: the table \"robot/*/pose\" has no column \"quw\" of numbers; expected one of x, y, z, qw, qx, qy, qz; "
       "did you mean \"qw\"?");
+  refused({"run", world, "--plot", "robot/*/pose/yaw", "--out", "o"},
+          "--plot: the table \"robot/*/pose\" has no column \"yaw\" of numbers; expected one of x, y, z, qw, qx, qy, "
+          "qz; the turn here is the quaternion qw, qx, qy, qz");
   refused({"run", world, "--record", "robot/*/twist"},
           "--record needs --out, the folder to write to, or --mcap, a log");
   refused({"run", world, "--mcap", "a.txt/b.mcap"}, "a.txt: cannot be made: Not a directory", 74);

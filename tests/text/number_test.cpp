@@ -41,7 +41,11 @@ TEST(Number, SaysWhyNot) {
       {"3 4", R"("3 4" is not a number; it has spaces in it or around it)"},
       {"1,5", R"("1,5" is not a number; a decimal point is written '.')"},
       {"+1", R"("+1" is not a number; a positive number is written without '+')"},
-      {"0x10", R"("0x10" is not a number; numbers are written in decimal)"},
+      {"1,234.5", R"("1,234.5" is not a number; no commas stand between thousands; expected 1234.5)"},
+      {"12,345,678", R"("12,345,678" is not a number; no commas stand between thousands; expected 12345678)"},
+      {"1,2345.5", R"("1,2345.5" is not a number; a decimal point is written '.')"},
+      {"3,", R"("3," is not a number; a comma stands beside it; expected none)"},
+      {"0x10", R"("0x10" is not a number; numbers are written in decimal: 16)"},
       {"-0X1p3", R"("-0X1p3" is not a number; numbers are written in decimal)"},
       {"nan", R"("nan" is not a number; it must be finite)"},
       {"-nan(0x1)", "\"-nan(0x1)\" is not a number; it must be finite"},
@@ -52,6 +56,13 @@ TEST(Number, SaysWhyNot) {
       {"1e-400", R"("1e-400" is out of range)"},
       {"1.5abc", R"("1.5abc" is not a number; "abc" follows the number)"},
       {"10s", R"("10s" is not a number; "s" follows the number: units are fixed and not written)"},
+      {"20 dBm", R"("20 dBm" is not a number; "dBm" follows the number: units are fixed and not written)"},
+      {"20DBM", R"("20DBM" is not a number; "DBM" follows the number: units are fixed and not written)"},
+      {" 3 kg*m2 ", R"(" 3 kg*m2 " is not a number; "kg*m2" follows the number: units are fixed and not written)"},
+      {"90\u00b0", "\"90\u00b0\" is not a number; \"\u00b0\" follows the number: units are fixed and not written"},
+      {"3 apples", R"("3 apples" is not a number; it has spaces in it or around it)"},
+      {"m", R"("m" is not a number, but a unit: units are fixed and not written)"},
+      {"true", R"("true" is not a number, but a word for yes or no)"},
       {"1e400x", R"("1e400x" is not a number; "x" follows the number)"},
       {"1.2.3", R"("1.2.3" is not a number; ".3" follows the number)"},
       {"abc", R"("abc" is not a number)"},
@@ -89,6 +100,15 @@ TEST(Number, ReadsLists) {
   EXPECT_EQ(why_not_reals("1 2", 3), R"("1 2" has 2 numbers)");
   EXPECT_EQ(why_not_reals("", 2), R"("" has 0 numbers)");
   EXPECT_EQ(why_not_reals("1,0,2.5", 3), R"("1,0,2.5" has commas between its numbers)");
+  EXPECT_EQ(why_not_reals("3, 2, 0", 3), R"("3, 2, 0" has commas between its numbers)");
+  EXPECT_EQ(why_not_reals("[3, 2, 0]", 3), R"("[3, 2, 0]" has brackets around its numbers)");
+  EXPECT_EQ(why_not_reals("3;2;0", 3), R"("3;2;0" has semicolons between its numbers)");
+  EXPECT_EQ(why_not_reals("3, 2", 3), R"("3, 2" has commas between its numbers, and 2 numbers)");
+  EXPECT_EQ(why_not_reals("1,5 2 0", 3), R"("1,5" is not a number; a decimal point is written '.')");
+  EXPECT_EQ(why_not_reals("3 m 2 m", 2), R"("m" is not a number, but a unit: units are fixed and not written)");
+  EXPECT_EQ(reals_as_meant("(3, -2.5, 1e3)", 3), "3 -2.5 1e3");
+  EXPECT_EQ(reals_as_meant("3 2 0", 3), "");
+  EXPECT_EQ(reals_as_meant("3, 2", 3), "");
   EXPECT_EQ(why_not_reals("1,0 2", 2), R"("1,0" is not a number; a decimal point is written '.')");
 }
 

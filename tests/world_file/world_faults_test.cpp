@@ -48,6 +48,13 @@ TEST_F(Faults, Fault5MisspeltNames) {
             "plugin as an element inside");
   EXPECT_EQ(error_with(walls + "<wall from='0 0' to='1 0' material='n'/>"),
             "world.xml:3:37: no material is called \"n\"; expected m");
+  EXPECT_EQ(
+      error_with(walls + "<wall name='w' from='0 0' to='1 0' material='m'/>\n<wall from='0 0' to='1 0' material='w'/>"),
+      "world.xml:4:37: no material is called \"w\", which is a wall (world.xml:3:1); expected m");
+  EXPECT_EQ(error_with(walls + "<station name='base' at='0 0 1'/>\n<door wall='base' at='0'/>"),
+            "world.xml:4:13: no wall is called \"base\", which is a station (world.xml:3:1); the world has none");
+  EXPECT_EQ(error_with("<a.b/>\n<station name='base' at='0 0 1'/>\n<swap at='1' instance='base' plugin='x.y'/>"),
+            "world.xml:4:24: no instance is called \"base\", which is a station (world.xml:3:1); expected a.b");
   EXPECT_EQ(error_with("<wall from='0 0' to='1 0' material='n'/>"),
             "world.xml:2:37: no material is called \"n\"; the world has none");
 }
@@ -64,7 +71,7 @@ TEST_F(Faults, Fault6Numbers) {
   EXPECT_EQ(loss("inf"), at_loss + "\"inf\" is not a number; it must be finite" + number);
   EXPECT_EQ(loss("1e400"), at_loss + "\"1e400\" is out of range" + number);
   EXPECT_EQ(loss("1.5abc"), at_loss + "\"1.5abc\" is not a number; \"abc\" follows the number" + number);
-  EXPECT_EQ(loss("0x10"), at_loss + "\"0x10\" is not a number; numbers are written in decimal" + number);
+  EXPECT_EQ(loss("0x10"), at_loss + "\"0x10\" is not a number; numbers are written in decimal: 16" + number);
   EXPECT_EQ(loss(""), at_loss + "\"\" is not a number; the text is empty" + number);
   EXPECT_EQ(loss(" "), at_loss + "\" \" is not a number; it has spaces in it or around it" + number);
   EXPECT_EQ(loss(" 3"), at_loss + "\" 3\" is not a number; it has spaces in it or around it" + number);

@@ -194,11 +194,15 @@ std::vector<std::string> check_stations(const LinkModel& model, const Dataset& d
         continue;
       }
       const int other = stands_there(model, end.radio, mount);
-      notes.push_back(quote(name) + " moves in the data and stands at " + there + "; the data's places are used" +
+      const auto column = data.table->find("tx_x");
+      const Place at = other >= 0 && column ? data.table->header_place(*column) : data.table->place(row, 0);
+      notes.push_back(at.text() + ": " + quote(name) + " moves in the data and stands at " + there +
+                      "; the data's places are used" +
                       (other < 0 ? ""
                                  : ", in which " + quote(model.radio_name(other)) +
-                                       " stands there: are the names in tx and rx exchanged? (a map of muster import: "
-                                       "tx = the column of rx, rx = that of tx)"));
+                                       " stands there; are tx_x, tx_y and rx_x, rx_y exchanged in the header, or the "
+                                       "names in tx and rx? (a map of muster import: tx = the column of rx, rx = that "
+                                       "of tx)"));
     }
   }
   return notes;
@@ -213,20 +217,53 @@ std::string list_of(const std::vector<std::string>& names) {
   return names.size() <= most ? result : result + " and " + std::to_string(names.size() - most) + " more";
 }
 
+namespace {
+
+// The radio of the world that a name of the data is, with the slash of a topic or in other capitals, or nearest to.
+std::string meant_radio(const std::string& name, const std::vector<std::string>& silent) {
+  const auto plain = [](std::string text) {
+    text = text.substr(std::min(text.find_first_not_of('/'), text.size()));
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  for (const std::string& each : silent)
+    if (plain(each) == plain(name)) return each;
+  return nearest(name, silent);
+}
+
+// "data.csv:2:5: ", where the radio is named first.
+std::string place_of(const std::string& radio, const Dataset& data) {
+  for (const auto& [column, factor] : {std::pair("tx", &data.tx), {"rx", &data.rx}}) {
+    const auto at = data.table->find(column);
+    const auto level = std::find(factor->levels.begin(), factor->levels.end(), radio);
+    if (!at || level == factor->levels.end()) continue;
+    const auto number = static_cast<uint32_t>(level - factor->levels.begin());
+    const auto row = std::find(factor->level.begin(), factor->level.end(), number);
+    if (row == factor->level.end()) continue;
+    return data.table->place(static_cast<std::size_t>(row - factor->level.begin()), *at).text() + ": ";
+  }
+  return "";
+}
+
+}  // namespace
+
 std::vector<std::string> notes_on_radios(const LinkModel& model, const Dataset& data) {
   const std::vector<std::string> added = model.added_radios();
   if (added.empty()) return {};
   std::vector<std::string> silent = model.radio_names();
   for (const Factor* heard : {&data.tx, &data.rx})
     for (const std::string& name : heard->levels) std::erase(silent, name);
-  std::string words = "radios of the data that the world does not have: " + list_of(added) +
-                      "; a cause that is found about one adds it to the extended world";
-  if (!silent.empty()) words += "; radios of the world without a reading: " + list_of(silent);
+  std::string meant;  // "/base" as "base"
   for (const std::string& name : added) {
-    if (const std::string near = nearest(name, silent); !near.empty())
-      words += "; by " + quote(name) + ", did you mean " + quote(near) + "?";
+    const std::string near = meant_radio(name, silent);
+    if (!near.empty()) meant += (meant.empty() ? "" : ", ") + quote(name) + " as " + quote(near);
   }
-  return {words};
+  std::string words = place_of(added[0], data) + "radios of the data that the world does not have: " + list_of(added);
+  if (!silent.empty()) words += "; radios of the world without a reading: " + list_of(silent);
+  if (!meant.empty())
+    words += "; is " + meant + " meant?" +
+             (added[0].starts_with('/') ? " names have no slash (a map of muster import names them anew)" : "");
+  return {words + " (as they are, a cause that is found about one adds it to the extended world)"};
 }
 
 std::vector<std::string> check_places(const LinkModel& model, const Dataset& data) {

@@ -136,7 +136,8 @@ TEST(Ladder, RefusesWhatItCannotClimb) {
        "physics, "
        "which the others exchange"},
       {{"world.xml", "drive.xml", "--measured", "way.csv"},
-       "muster compare: --measured is of the ladder; expected --ladder beside it"},
+       "muster compare: --measured has no effect without --ladder; expected --ladder beside it, or no --measured; see "
+       "muster compare --help"},
       {{"--ladder", "world.xml"},
        "muster compare --ladder: the world has neither robots nor messages; expected --metric TABLE/COLUMN"},
       {{"--ladder", "world.xml", "drive.xml"},
@@ -144,7 +145,8 @@ TEST(Ladder, RefusesWhatItCannotClimb) {
       {{"--ladder", "world.xml", "--within", "pose/distance=1"},
        "muster compare --ladder: takes the world alone, as its rungs are what is compared; expected no --within"},
       {{"drive.xml", "world.xml", "--metric", "x"},
-       "muster compare: --metric is of the ladder; expected --ladder beside it"},
+       "muster compare: --metric has no effect without --ladder; expected --ladder beside it, or no --metric; see "
+       "muster compare --help"},
       {{"--ladder", "world.xml", "--metric", "x"},
        "--metric \"x\": expected TABLE/COLUMN, such as robot/leader/pose/x"},
       {{"--ladder", "world.xml", "--metric", "link/*/level/lvel"},

@@ -59,6 +59,32 @@ TEST(CommandWords, ByThePluginInPlaceOfTheInstance) {
                 "plugin of \"channel\"\n"));
 }
 
+TEST(CommandWords, ANameOfAnotherKind) {
+  const ProgramFolder folder;
+  folder.write("world.xml",
+               "<world dt=\"0.1\" until=\"1\">\n<station name=\"base\" at=\"0 0 1\"/>\n"
+               "<station name=\"far\" at=\"5 0 1\"/>\n<radio.multiwall name=\"channel\"/>\n"
+               "</world>");
+  const auto said = [&](const std::vector<std::string>& words) { return folder.muster(words).err; };
+  EXPECT_THAT(said({"swap", "world.xml", "--at", "0.5", "--instance", "base", "--plugin", "test.good"}),
+              HasSubstr("--instance: no instance is called \"base\", which is a station (world.xml:2:1); expected"));
+  EXPECT_THAT(said({"probe", "world.xml", "base", "channel"}),
+              HasSubstr("is called \"channel\", which is an instance of radio.multiwall (world.xml:4:1); expected"));
+  EXPECT_THAT(said({"run", "world.xml", "--set", "base/n=3"}),
+              HasSubstr("it begins with \"base\", which is a station (world.xml:2:1)"));
+  EXPECT_THAT(said({"run", "world.xml", "--record", "robot/base/pose", "--out", "out"}), HasSubstr("base"));
+}
+
+TEST(CommandWords, AWorldInThePlaceOfADiagnosis) {
+  const ProgramFolder folder;
+  folder.write("lab/world.xml", "<world dt=\"0.1\" until=\"1\"/>");
+  folder.write("notes/a.txt", "");
+  const std::string expected = "; expected the FOLDER that muster diagnose WORLD --data FILE --out FOLDER wrote";
+  expect_error(folder.muster({"diagnose", "--check", "lab"}), 2,
+               "--check: lab is the folder of a world, and of no diagnosis" + expected);
+  expect_error(folder.muster({"diagnose", "--check", "notes"}), 2, "--check: notes is no diagnosis" + expected);
+}
+
 TEST(CommandWords, AParameterByItsMeaning) {
   EXPECT_THAT(
       said_beside_a_channel({"run", "lab", "--set", "channel/exponent=3"}),
@@ -137,9 +163,9 @@ TEST(CommandWords, AVerbThatIsAnOptionOfRun) {
 }
 
 TEST(CommandWords, TimesAndLengthsWithUnits) {
-  EXPECT_EQ(
-      words_said_by({"run", "world.xml", "--until", "1min"}),
-      "muster: error: --until: \"1min\" is not a number; \"min\" follows the number; expected seconds: --until 60\n");
+  EXPECT_EQ(words_said_by({"run", "world.xml", "--until", "1min"}),
+            "muster: error: --until: \"1min\" is not a number; \"min\" follows the number: units are fixed and not "
+            "written; expected seconds: --until 60\n");
   EXPECT_THAT(words_said_by({"run", "world.xml", "--until", "00:01:30"}), HasSubstr("expected seconds: --until 90\n"));
   EXPECT_THAT(words_said_by({"run", "world.xml", "--until", "long"}), HasSubstr("is not a number; expected seconds\n"));
   EXPECT_THAT(words_said_by({"map", "world.xml", "--out", "m", "--height", "150cm"}),
@@ -150,9 +176,9 @@ TEST(CommandWords, ASweepUntilATimeWithAUnit) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(""));
   folder.write("s.xml", R"(<sweep world="world.xml" seeds="1" until="1min"/>)");
-  expect_error(
-      folder.muster({"sweep", "s.xml", "--out", "o"}), 2,
-      "s.xml:1:43: until: \"1min\" is not a number; \"min\" follows the number; expected seconds; 1min are 60 s");
+  expect_error(folder.muster({"sweep", "s.xml", "--out", "o"}), 2,
+               "s.xml:1:43: until: \"1min\" is not a number; \"min\" follows the number: units are fixed and not "
+               "written; expected seconds; 1min are 60 s");
 }
 
 TEST(CommandWords, ABundleInThePlaceOfAWorld) {

@@ -91,9 +91,10 @@ TEST(DataDoubts, AnotherFrame) {
 
 TEST(DataDoubts, NamesExchanged) {
   EXPECT_THAT(said_of_data([](Reading&) {}, "", "0,0,1", "rover,base"),
-              HasSubstr("note: \"base\" moves in the data and stands at x = 0, y = 0 m in the world; the data's places "
-                        "are used, in which \"rover\" stands there: are the names in tx and rx exchanged? (a map of "
-                        "muster import: tx = the column of rx, rx = that of tx)"));
+              HasSubstr("\"base\" moves in the data and stands at x = 0, y = 0 m in the world; the data's places "
+                        "are used, in which \"rover\" stands there; are tx_x, tx_y and rx_x, rx_y exchanged in the "
+                        "header, or the names in tx and rx? (a map of muster import: tx = the column of rx, rx = that "
+                        "of tx)"));
 }
 
 TEST(DataDoubts, FeaturesAsksTheSame) {

@@ -94,7 +94,8 @@ TEST(Fault25, LevelsThatNoReceiverGives) {
   expect_refused(Data().set(6, 7, "31").text(),
                  ":7:26: row 6: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
   expect_refused(Data().set(6, 7, "nan").text(),
-                 ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
+                 ":7:26: column \"rssi[dBm]\": \"nan\" is not a number; expected an empty cell where there is no value "
+                 "(muster import makes it so)");
 }
 
 TEST(Fault25, NumbersOfAnotherCountry) {
@@ -190,17 +191,21 @@ TEST(Fault25, Milliwatts) {
 
 TEST(Fault25, ARadioThatTheWorldDoesNotHave) {
   const std::string note =
-      "note: radios of the data that the world does not have: \"bse\"; a cause that is found about one adds it to the "
-      "extended world; radios of the world without a reading: \"base\"; by \"bse\", did you mean \"base\"?";
-  EXPECT_THAT(fit(Data().set_all(1, "bse").text()).out, HasSubstr(note));
+      ":2:3: radios of the data that the world does not have: \"bse\"; radios of the world without a reading: "
+      "\"base\"; is \"bse\" as \"base\" meant?";
+  const std::string end = " (as they are, a cause that is found about one adds it to the extended world)";
+  EXPECT_THAT(fit(Data().set_all(1, "bse").text()).out, HasSubstr(note + end));
+  EXPECT_THAT(fit(Data().set_all(1, "/base").text()).out,
+              HasSubstr("is \"/base\" as \"base\" meant? names have no slash (a map of muster import names "
+                        "them anew)" +
+                        end));
   EXPECT_THAT(fit(Data().text()).out, testing::Not(HasSubstr("does not have")));
 }
 
 TEST(Fault25, AStationThatMovesIsSaidToMove) {
-  EXPECT_THAT(
-      fit(Data().text()).out,
-      HasSubstr("note: \"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
-                "are used"));
+  EXPECT_THAT(fit(Data().text()).out,
+              HasSubstr("\"rover\" moves in the data and stands at x = 5, y = 0 m in the world; the data's places "
+                        "are used"));
 }
 
 TEST(Fault25, CellsThatAreAllTooSmallAreNoStatistic) {

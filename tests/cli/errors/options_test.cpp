@@ -86,7 +86,12 @@ TEST_F(Words, SeveralSeedsAreThoseOfASweep) {
 
 TEST_F(Words, OptionsOfAViewNeedIt) {
   for (const std::string option : {"--port", "--token", "--address"})
-    refused({option, "80"}, "--port, --address and --token need --view beside them");
+    refused({option, "80"}, "muster run: " + option +
+                                " has no effect without --view; expected --view beside it, or no " + option + see);
+  refused(
+      {"--port", "80", "--paused"},
+      "muster run: --port and --paused have no effect without --view; expected --view beside them, or none of them" +
+          see);
 }
 
 TEST_F(Words, OneWordTooManyMayBeAnOption) {

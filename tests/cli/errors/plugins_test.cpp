@@ -150,7 +150,30 @@ TEST(Fault16, AStepThatMayKeepStateIsWarnedOf) {
     return outcome.out + outcome.err;
   };
   EXPECT_THAT(checked("keeps"), testing::HasSubstr(said));
-  for (const char* toy : {"good", "keeps_caches"}) EXPECT_THAT(checked(toy), testing::Not(testing::HasSubstr("const")));
+  EXPECT_THAT(checked("counts"),
+              testing::HasSubstr("warning: world.xml:1:36: its step() changes a member, though it is const: what it "
+                                 "keeps in members is lost where a run is restored or a plugin swapped; expected state "
+                                 "in a table, s.write<State>(\"self/state\") and k.last(state), and no member that is "
+                                 "mutable; or, where members hold only what can be computed again"));
+  for (const char* toy : {"good", "keeps_caches", "counts_anew", "counts_caches"})
+    EXPECT_THAT(checked(toy), testing::Not(testing::HasSubstr("const")));
+}
+
+// What no table holds is found where a run is saved: it goes on beside a world that begins from the snapshot.
+TEST(Fault16, StateOutsideOfTablesIsFoundWhereARunIsSaved) {
+  const ProgramFolder folder;
+  const auto saved = [&](const std::string& toy) {
+    const auto outcome = run_toy(folder, "<test." + toy + " name=\"shelf\"/>", {"--until", "0.5", "--save", "s.bin"});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(saved("stops"),
+              testing::HasSubstr("muster: warning: --save: s.bin does not hold all of the run's state: restored in a "
+                                 "world of its own it goes on otherwise at 2.1 s, in instance/shelf/*/cell, row shelf, "
+                                 "value[m], which shelf (test.stops/1) writes: 21 instead of -1; such a plugin keeps "
+                                 "state in members or static variables"));
+  for (const char* toy : {"good", "keeps_caches", "counts_caches"})
+    EXPECT_THAT(saved(toy), testing::Not(testing::HasSubstr("--save"))) << toy;
 }
 
 TEST(Fault19, ColumnsAreSeparatedByBlanks) {

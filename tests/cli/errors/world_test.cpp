@@ -96,7 +96,7 @@ void expect_numbers_refused(const std::vector<std::string>& environment) {
       {"inf", R"("inf" is not a number; it must be finite)"},
       {"1e400", R"("1e400" is out of range)"},
       {"1.5abc", R"("1.5abc" is not a number; "abc" follows the number)"},
-      {"0x10", R"("0x10" is not a number; numbers are written in decimal)"},
+      {"0x10", R"("0x10" is not a number; numbers are written in decimal: 16)"},
       {" ", R"(" " is not a number; it has spaces in it or around it)"},
       {"", R"("" is not a number; the text is empty)"}};
   for (const auto& [text, why] : cases) {

@@ -37,7 +37,8 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
 TEST(FirstHour, PlacesWithCommasOrTooFewNumbers) {
   const std::string expected = "; expected 3 numbers from -1e+06 to 1e+06 m, with spaces between them (place: x y z)";
   expect_refused(world_of("<station at=\"1,2,0.5\"/>"),
-                 "world.xml:1:49: attribute \"at\": \"1,2,0.5\" has commas between its numbers" + expected);
+                 "world.xml:1:49: attribute \"at\": \"1,2,0.5\" has commas between its numbers" + expected +
+                     "; write at=\"1 2 0.5\"");
   expect_refused(world_of("<station at=\"1 2\"/>"),
                  "world.xml:1:49: attribute \"at\": \"1 2\" has 2 numbers" + expected);
 }

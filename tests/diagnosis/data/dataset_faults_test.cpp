@@ -187,7 +187,8 @@ TEST(DatasetFaults, FarPlacesOfOneUnitAreTaken) {
 
 TEST(DatasetFaults, WhatIsNoNumber) {
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,nan\n"),
-            "d.csv:2:15: column \"rssi[dBm]\": \"nan\" is not a number; it must be finite");
+            "d.csv:2:15: column \"rssi[dBm]\": \"nan\" is not a number; expected an empty cell where there is no value "
+            "(muster import makes it so)");
   EXPECT_EQ(reading(header + "0,a,b,0,0,\"1,5\",0,-50\n"),
             "d.csv:2:11: column \"rx_x[m]\": \"1,5\" is not a number; a decimal point is written '.'");
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,5,0,-50\n"),

@@ -179,6 +179,9 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "differs");
   EXPECT_EQ(failing(with("tx_y[m] =", "tx_y =")),
             "m.map:9: column \"tx_y\" has no unit; expected \"tx_y[m]\", and SCALE*COLUMN where that differs");
+  EXPECT_EQ(failing(with("tx_y[m] =", "px = rx_x[m]\ntx_y[m] =")),
+            "m.map:9: the rule is the wrong way round: a column of the result stands on the left, and one of " +
+                file.string() + " on the right; expected rx_x[m] = px");
   EXPECT_EQ(failing(with("tx_y[m] =", "tx_y[m] = secs + 1e-9*nsecs\nnote =")),
             "m.map:9: \"1e-9*nsecs\" is no number, and a rule takes one column, SCALE*COLUMN + OFFSET; expected one of "
             "the two columns, or one that has both in it (of a stamp: t[s] = time COLUMN)");

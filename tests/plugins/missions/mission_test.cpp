@@ -208,10 +208,10 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(refused("<go_to at='1 2' with='3'/>"),
             "2:17: <go_to> has no attribute \"with\"; expected one of at, heading, within, patience; did you mean "
             "\"within\"?");
-  EXPECT_EQ(
-      refused("<wait seconds='2min'/>"),
-      "2:16: attribute \"seconds\": \"2min\" is not a number; \"min\" follows the number; expected a number from 0 to "
-      "1e+09 s; 2min are 120 s");
+  EXPECT_EQ(refused("<wait seconds='2min'/>"),
+            "2:16: attribute \"seconds\": \"2min\" is not a number; \"min\" follows the number: units are fixed and "
+            "not written; expected a number from 0 to "
+            "1e+09 s; 2min are 120 s");
   EXPECT_THAT(refused("<keep_link to='base' above='60'/>"),
               testing::HasSubstr("60 is out of bounds; expected a number from -200 to 50 dBm; is a minus missing?"));
   EXPECT_EQ(refused("<wait seconds='soon'/>"),

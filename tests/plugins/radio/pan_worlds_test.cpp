@@ -145,9 +145,11 @@ TEST_F(PanWorld, WhereTheNetworkKnowsNoneItIsWarnedOf) {
 
 TEST_F(PanWorld, WhatIsDeclaredWronglyIsTold) {
   const std::string at = "world.xml:2:1: p (radio.pan): ", expected = "; expected an integer from 0 to 65534";
-  EXPECT_EQ(error_of(pan("p", "65535", "a")), "world.xml:2:25: attribute \"id\": 65535 is out of bounds" + expected);
-  EXPECT_EQ(error_of(pan("p", "0x1A", "a")),
-            "world.xml:2:25: attribute \"id\": \"0x1A\" is not an integer; numbers are written in decimal" + expected);
+  EXPECT_EQ(error_of(pan("p", "65535", "a")),
+            "world.xml:2:25: attribute \"id\": 65535 is out of bounds" + expected + " (macPANId)");
+  EXPECT_EQ(
+      error_of(pan("p", "0x1A", "a")),
+      "world.xml:2:25: attribute \"id\": \"0x1A\" is not an integer; numbers are written in decimal: 26" + expected);
   EXPECT_EQ(error_of("<radio.pan radios=\"a\"/>"),
             "world.xml:2:1: <radio.pan> has no attribute \"id\", which it needs" + expected);
   EXPECT_EQ(

@@ -38,7 +38,7 @@ TEST(Blind, AndSoIsOneThatReadsAnotherRobot) {
   EXPECT_EQ(refusal<Odometry>("robot/b/odometry"),
             "world.xml:2:1: test.peeker (test.peeker): claims \"robot/b/odometry\", but it is bound to the robot "
             "\"a\"; expected that "
-            "robot's own row");
+            "robot's own row, read<Odometry>(\"robot/{robot}/odometry\") in its source");
 }
 
 TEST(Blind, OursClaimTheirOwnRobotAlone) {

@@ -14,6 +14,9 @@
 #ifndef TOY_STEP
 #define TOY_STEP
 #endif
+#ifndef TOY_EACH_STEP
+#define TOY_EACH_STEP
+#endif
 #ifndef TOY_DESTROY
 #define TOY_DESTROY
 #endif
@@ -24,6 +27,12 @@
 #ifndef TOY_KEEPS_CACHES
 #define TOY_KEEPS_CACHES false
 #endif
+
+// How often it was called in this process: state that no table holds.
+inline int calls() {
+  static int count = 0;
+  return ++count;
+}
 
 struct Commas {
   static constexpr const char* columns = "x[m],y[m], z[m]";
@@ -51,8 +60,10 @@ struct Toy {
     if (k.tick() == 5) {
       TOY_STEP;
     }
+    TOY_EACH_STEP;
     k[cell]->value = static_cast<double>(k.tick());
   }
   muster::Out<Cell> cell;
   int kept = 0;
+  mutable int counted = 0;
 };
