@@ -119,7 +119,9 @@ class Comparison {
     if (wanted) exchange(world, *wanted, instance_names(*runs_[0].run), "muster compare");
     if (world.dt != runs_[0].run->world().dt)
       throw Error(Exit::invalid_input, word + ": ticks of " + print_real(world.dt) + " s against " +
-                                           print_real(runs_[0].run->world().dt) + " s; expected one dt");
+                                           print_real(runs_[0].run->world().dt) +
+                                           " s, so that no tick has one beside it; expected dt=\"" +
+                                           print_real(runs_[0].run->world().dt) + "\" in both worlds");
     try {
       add(std::move(world), word);
     } catch (const Error& e) {

@@ -29,6 +29,17 @@ live::HttpResponse plain(int status, const std::string& words) {
 
 }  // namespace
 
+// Browsers say an origin as scheme, host and port, without a path.
+void check(const ViewSettings& settings) {
+  for (const std::string& origin : settings.origins) {
+    const auto scheme = origin.find("://"), host = scheme == origin.npos ? 0 : scheme + 3,
+               path = origin.find('/', host);
+    if (scheme != origin.npos && path == origin.npos && host < origin.size()) continue;
+    throw Error(Exit::invalid_input, "--origin: " + quote(origin) + " is no origin of a page; expected " +
+                                         (scheme == origin.npos ? "https://" : "") + origin.substr(0, path));
+  }
+}
+
 LiveView::LiveView(const ViewSettings& settings, const std::vector<RecordDeclaration>& records, double speed)
     : settings_(settings),
       records_(records),

@@ -22,6 +22,8 @@ struct ViewSettings {
   int port = 0;
   bool is_paused = false;  // at the start
 };
+// Throws Error where a word cannot be the origin of a page.
+void check(const ViewSettings& settings);
 
 // It is the clock of the run's pace: while the run waits, requests are answered.
 class LiveView : public WallClock, private live::RunControl {

@@ -181,7 +181,8 @@ std::optional<double> speed_of(const RunWords& words) {
   const double speed = real_of(*words.speed, "--speed");
   if (!(speed >= least && speed <= most))
     throw Error(Exit::invalid_input, "--speed: " + *words.speed + " is out of bounds; expected a number from " +
-                                         print_real(least) + " to " + print_real(most) + ", times real time");
+                                         print_real(least) + " to " + print_real(most) + ", times real time" +
+                                         (speed == 0 ? "; a run without --real-time goes as fast as it can" : ""));
   if (!words.real_time && !words.view)
     throw Error(Exit::invalid_input, "--speed needs --real-time or --view beside it");
   return speed;
@@ -203,6 +204,7 @@ World asked_world(RunWords& words) {
   check_written(words);
   words.may_log = true;
   words.has_log = !words.log.mcap.empty() || !words.log.wide.empty();
+  check(words.view_at);
   if (words.view && words.expected)
     throw Error(Exit::invalid_input, "--view shows a run, and --expected runs no tick; expected one of them");
   if (!words.log.plot.empty() && words.expected)

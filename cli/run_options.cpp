@@ -154,6 +154,9 @@ void set_parameters(Simulation& run, const std::vector<std::string>& given) {
                                            path.substr(0, end + 1) + '=' +
                                            (begin == one.npos ? "VALUE" : one.substr(begin)));
     }
+    if (path.ends_with(':'))  // as ROS remaps
+      throw Error(Exit::invalid_input, "--set " + quote(one) + " has := as ROS has it; expected PATH=VALUE: --set " +
+                                           path.substr(0, path.size() - 1) + one.substr(equals));
     if (!seen.insert(path).second)
       throw Error(Exit::invalid_input, "--set: " + path + " is given more than once; expected one value");
     set_parameter(run, {path, one.substr(equals + 1), {"--set"}, {"--set"}});

@@ -103,6 +103,17 @@ const std::vector<std::string>& SweepRuns::instances_of(const World& world) {
   return result;
 }
 
+// Of a parameter that an exchanged plugin has not: "; that is where physics is physics.planar (sweep.xml:2:3)".
+std::string SweepRuns::where_exchanged(const std::vector<Word>& values, const std::string& path) const {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Variation& varied = file_.varied[i];
+    if (varied.kind != Variation::Kind::plugin || !path.starts_with(varied.path + '/')) continue;
+    return "; that is where " + varied.path + " is " + values[i].text + " (" + values[i].place.text() +
+           "): what one plugin alone has is given with it, as plugins=\"PLUGIN:NAME=VALUE\"";
+  }
+  return "";
+}
+
 std::unique_ptr<Simulation> SweepRuns::make(std::size_t combination, std::int64_t seed) {
   const auto values = file_.combination(combination);
   World world = world_of(values);
@@ -115,9 +126,14 @@ std::unique_ptr<Simulation> SweepRuns::make(std::size_t combination, std::int64_
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Variation& varied = file_.varied[i];
     if (varied.kind != Variation::Kind::parameter) continue;
-    told_at(values[i].place, [&] {
-      set_parameter(*run, {varied.path, values[i].text, varied.place, values[i].place});
-    });
+    try {
+      told_at(values[i].place, [&] {
+        set_parameter(*run, {varied.path, values[i].text, varied.place, values[i].place});
+      });
+    } catch (const Error& error) {
+      throw Error(error.exit(), error.place().file.empty() ? values[i].place : error.place(),
+                  error.message() + where_exchanged(values, varied.path));
+    }
   }
   return run;
 }

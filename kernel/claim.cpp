@@ -261,14 +261,34 @@ std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Co
   return result;
 }
 
+// What a table is that has these columns beside those that it should have; "" where it is nothing known.
+std::string of_another_kind(const TextTable& table, const std::vector<std::string>& known) {
+  const auto has = [&](const char* name) { return table.find(name).has_value(); };
+  const auto takes = [&](const char* name) { return std::find(known.begin(), known.end(), name) != known.end(); };
+  const bool is_of_places = takes("x") && takes("y");
+  if (is_of_places && has("x0") && has("y0") && has("x1") && has("y1"))
+    return "this is a roadmap, pieces from x0, y0 to x1, y1, and no list of places; expected x[m],y[m], as `muster "
+           "roadmap "
+           "--path` writes a way on it, or <control.navigate>, which takes the roadmap";
+  if (is_of_places && has("x") && has("y") && !takes("t") && has("t")) {
+    std::string all;
+    for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
+    return "these places have no times, which follow from the speed; expected " + all +
+           " without t (poses over time carry a robot by physics.replay)";
+  }
+  return "";
+}
+
 // Refuses columns that no plugin reads, so that none is ignored silently.
 void refuse_others(const TextTable& table, const Columns& columns) {
   std::vector<std::string> known;
   for (const auto& column : columns) known.push_back(column.name);
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
     const auto& name = table.columns()[c].name;
-    if (columns.find(name) < 0)
-      throw invalid(table.header_place(c), "column " + quote(name) + " means nothing here; " + suggest(name, known));
+    if (columns.find(name) >= 0) continue;
+    const std::string other = of_another_kind(table, known);
+    throw invalid(table.header_place(c),
+                  "column " + quote(name) + " means nothing here; " + (other.empty() ? suggest(name, known) : other));
   }
 }
 

@@ -45,7 +45,8 @@ std::string of_time(uint32_t phase, const muster_param& declared, double value, 
   if (declared.flags & MUSTER_FREE || !(value > 0)) return "";
   if (name == "period" && unit == "s" && until > 0 && value >= plainly * until)
     return with_unit(value, declared) + " is " + print_real(std::round(value / until)) + " times the run of " +
-           print_real(until) + " s, so that nothing comes twice; are these milliseconds?";
+           print_real(until) + " s, so that nothing comes twice; are these milliseconds? expected period=\"" +
+           print_real(value / 1000) + '"';
   if (name == "period" && unit == "s" && phase != MUSTER_RADIO && value < tick * (1 - rounding))
     return with_unit(value, declared) + " is less than a tick of " + print_real(tick) +
            " s, so that it is taken for one tick; expected period=\"" + print_real(tick) + "\", or dt=\"" +

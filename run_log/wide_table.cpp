@@ -152,6 +152,9 @@ class OneColumn : public Numbers {
 
 // Of "pose" where there is robot/rover/pose/x: the table is meant, with all of its columns.
 std::string meant_table(const std::string& word, const std::vector<std::string>& columns) {
+  if (word.starts_with('/') && word.size() > 1)  // a topic
+    return "names of columns have no slash in front; expected " + quote(word.substr(1) + "/*") +
+           ", all columns of that table";
   for (const std::string& column : columns) {
     const std::string table = column.substr(0, column.rfind('/'));
     if (table.ends_with('/' + word))

@@ -83,6 +83,21 @@ std::vector<std::int64_t> seeds_of(const XmlAttribute& attribute) {
   return result;
 }
 
+// "1.5 2 2.5 3" of "1.5:0.5:3", begin:step:end as in MATLAB, and of "1:3"; "" where it is no such range, or a long one.
+std::string listed(const std::string& range) {
+  const auto first = range.find(':'), last = range.rfind(':');
+  if (first == range.npos) return "";
+  const auto begin = parse_real(range.substr(0, first)), end = parse_real(range.substr(last + 1));
+  const auto step = first == last ? std::optional(1.0) : parse_real(range.substr(first + 1, last - first - 1));
+  constexpr double most = 20;
+  if (!begin || !end || !step || !(*step != 0) || !((*end - *begin) / *step >= 0 && (*end - *begin) / *step <= most))
+    return "";
+  std::string result;
+  const int steps = static_cast<int>((*end - *begin) / *step + 1e-9);
+  for (int i = 0; i <= steps; ++i) result += (i ? " " : "") + print_real(*begin + i * *step);
+  return result;
+}
+
 Variation variation_of(const XmlElement& element) {
   check_attributes(element, {"set", "values", "instance", "plugins", "worlds"});
   const XmlAttribute *set = element.attribute("set"), *instance = element.attribute("instance"),
@@ -101,6 +116,10 @@ Variation variation_of(const XmlElement& element) {
     return {Variation::Kind::plugin, instance->value, words_of(required(element, "plugins")), instance->value_place};
   Variation result{Variation::Kind::parameter, set->value, words_of(required(element, "values")), set->value_place};
   for (const Word& word : result.values) {
+    if (const std::string list = listed(word.text); !list.empty())
+      throw invalid(word.place, "values: " + quote(word.text) +
+                                    " is a range, and values are a list with blanks between them; expected values=\"" +
+                                    list + '"');
     if (word.text.find(',') != word.text.npos && word.text.find_first_not_of("0123456789.,+-eE") == word.text.npos)
       throw invalid(word.place, "values: " + quote(word.text) +
                                     " is not a number; expected numbers with blanks between "

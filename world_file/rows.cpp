@@ -109,7 +109,8 @@ class RowReader {
     const std::size_t row = rows_.at(set)[static_cast<std::size_t>(numbers_.at(set + '/' + name))];
     const std::string other = elements_[row]->name;
     if (other == element.name)
-      throw invalid(place, "a second " + set + " is called " + quote(name) + "; the first is at " + first.text());
+      throw invalid(place, "a second " + set + " is called " + quote(name) + "; the first is at " + first.text() +
+                               "; expected another name for one of them");
     throw invalid(at, std::string(element.name) + ' ' + quote(name) + " has the name of " + other + ' ' + quote(name) +
                           " at " + first.text() + ", and each is a " + set +
                           " by its name; expected another name for " + "one of them");

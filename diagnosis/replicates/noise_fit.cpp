@@ -37,6 +37,7 @@ class NoiseFitter {
     run_without();
     find_moved();
     run_without();
+    refuse_degrees();
     residual_ = runs_.pieces().difference(runs_.measured(), without_);
   }
 
@@ -63,6 +64,26 @@ class NoiseFitter {
   void run_without() {
     without_ = runs_.run(seed(0), at({}));
     if (largest(difference(runs_.run(seed(1), at({})))) > 0) refuse_drawn();
+  }
+
+  // A heading that turns some 57 times as far as the world's, were it in radians.
+  void refuse_degrees() const {
+    double turned = 0;
+    for (Eigen::Index i = 0; i < without_.size(); ++i)
+      if (runs_.pieces().kinds()[kind_of(i)].name == "turn" && !std::isnan(without_[i]))
+        turned += std::abs(without_[i]);
+    constexpr double degrees = 57.29577951308232, around = 1.4;
+    const RecordedTable& read = runs_.recorded();
+    if (!(turned > 0) || read.turned < degrees / around * turned || read.turned > degrees * around * turned) return;
+    throw invalid(read.yaw_at,
+                  "column \"yaw[rad]\" turns " + printed(read.turned / turned) +
+                      " times as far as the world; are these degrees? expected radians, a degree is 0.017453293");
+  }
+
+  static std::string printed(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
   }
 
   void find_parameters(const FitOptions& options) {

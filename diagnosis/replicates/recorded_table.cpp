@@ -102,6 +102,14 @@ RecordedTable read_recorded(const std::filesystem::path& file, const Table& of_w
   for (const std::size_t column : found) values.push_back(text.reals(column, {.empty = true}));
   if (const auto yaw = yaw_of(text, of_world)) turn_into_quaternions(*yaw, of_world, result, values);
   require_heading(text, result);
+  if (const auto yaw = text.find("yaw"); yaw && text.columns()[*yaw].unit == "rad") {
+    result.yaw_at = text.header_place(*yaw);
+    const std::vector<double> angle = text.reals(*yaw, {.empty = true});
+    for (const auto& own : rows) {
+      for (std::size_t i = 1; i < own.size(); ++i)
+        if (const double turn = std::abs(angle[own[i]] - angle[own[i - 1]]); !std::isnan(turn)) result.turned += turn;
+    }
+  }
   for (std::size_t level = 0; level < rows.size(); ++level) {
     RecordedCourse course{names.levels[level], {}, {}};
     std::vector<std::size_t> own;  // rows that lack nothing

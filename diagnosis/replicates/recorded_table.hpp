@@ -24,6 +24,9 @@ struct RecordedTable {
   std::vector<std::size_t> cells;  // of the world's table, that of each column
   std::vector<RecordedCourse> courses;
 
+  double turned = 0;  // of all courses together, by the column yaw[rad] as it stands; 0 without one
+  Place yaw_at{};     // that column's
+
   double last() const;  // [s]
 };
 

@@ -299,7 +299,8 @@ TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
       error("<at t='1'><wall name='w' from='0 0' to='1 0' material='m'/></at>"),
       "world.xml:5:11: <wall> stands inside <at>, but rows of \"wall\" do not join a run; expected it in <world>");
   EXPECT_EQ(error("<at t='1'><robot name='a' at='0 0 0'/></at>"),
-            "world.xml:5:11: a second robot is called \"a\"; the first is at world.xml:2:1");
+            "world.xml:5:11: a second robot is called \"a\"; the first is at world.xml:2:1; expected another name for "
+            "one of them");
   EXPECT_EQ(error("<at t='1'>" + that_moves("a", "mover") + "</at>"),
             "world.xml:5:11: a second instance is called \"mover\"; the first is at world.xml:4:1"
             "; give one of them a name=\"...\" of its own");

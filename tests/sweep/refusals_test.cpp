@@ -20,6 +20,9 @@ TEST(SweepRefusals, TellThePlaceInTheFile) {
        "you mean \"radio.multiwall/tx_power\"?"},
       {head + "<vary set=\"radio.multiwall/n\" values=\"2 x\"/></sweep>", "plan.xml:2:41: "},
       {head + "<vary set=\"radio.multiwall/n\" values=\"2 -3\"/></sweep>", "plan.xml:2:41: "},
+      {head + "<vary set=\"radio.multiwall/n\" values=\"1.5:0.5:3\"/></sweep>",
+       "plan.xml:2:39: values: \"1.5:0.5:3\" is a range, and values are a list with blanks between them; expected "
+       "values=\"1.5 2 2.5 3\""},
       {head + "<vary set=\"seed\" values=\"2\"/></sweep>",
        "plan.xml:2:12: \"seed\" is no parameter; expected seeds= of <sweep>"},
       {head + "<vary instance=\"fysics\" plugins=\"physics.planar\"/></sweep>",
@@ -41,6 +44,22 @@ TEST(SweepRefusals, TellThePlaceInTheFile) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out")) << fault.text;
   }
+}
+
+// What one of the plugins alone has cannot be varied for all.
+TEST(SweepRefusals, OfAParameterThatAnExchangedPluginLacks) {
+  const SweepFolder folder;
+  folder.write_sweep();
+  folder.write("plan.xml",
+               "<sweep world=\"world.xml\" seeds=\"1\">\n<vary instance=\"physics\" plugins=\"physics.planar\"/>\n"
+               "<vary set=\"physics/step\" values=\"0.001 0.005\"/></sweep>");
+  const auto outcome = folder.sweep({"plan.xml", "--out", "out"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_THAT(outcome.err,
+              testing::StartsWith("muster: error: plan.xml:3:12: there is no parameter \"physics/step\"; "));
+  EXPECT_THAT(outcome.err,
+              testing::HasSubstr("; that is where physics is physics.planar (plan.xml:2:35): what one plugin "
+                                 "alone has is given with it, as plugins=\"PLUGIN:NAME=VALUE\""));
 }
 
 TEST(SweepRefusals, OfWords) {

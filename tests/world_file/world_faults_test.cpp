@@ -216,7 +216,8 @@ TEST_F(Faults, TimesAndLengthsWithUnitsAreToldAsNumbers) {
 
 TEST_F(Faults, Fault13OneNameTwice) {
   EXPECT_EQ(error_with("<robot name='a' at='0 0 0'/>\n<robot name='a' at='1 0 0'/>"),
-            "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");
+            "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1; expected another name for "
+            "one of them");
   EXPECT_EQ(
       error_with("<robot name='a' at='0 0 0'/>\n<station name='a' at='1 0 0'/>"),
       "world.xml:3:16: station \"a\" has the name of robot \"a\" at world.xml:2:1, and each is a radio by its name; "

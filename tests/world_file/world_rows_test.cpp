@@ -81,7 +81,8 @@ TEST_F(Rows, WhatAFileMayGetWrong) {
   EXPECT_EQ(with(header + "w1,0,0,12,0,2.7,0.12,brik\n"),
             "walls.csv:2:22: no material is called \"brik\"; expected one of brick, wood; did you mean \"brick\"?");
   EXPECT_EQ(with(header + "w1,0,0,12,0,2.7,0.12,brick\nw1,0,0,0,5,3,0,wood\n"),
-            "walls.csv:3:1: a second wall is called \"w1\"; the first is at walls.csv:2:1");
+            "walls.csv:3:1: a second wall is called \"w1\"; the first is at walls.csv:2:1; expected another name for "
+            "one of them");
   EXPECT_EQ(with(header + "w 1,0,0,12,0,2.7,0.12,brick\n"),
             "walls.csv:2:1: attribute \"name\": \"w 1\" is not a name; expected letters, digits, _, - and .");
   EXPECT_EQ(with("name,x0[m],y0[m],x1[m],y1[m],material,colour\nw1,0,0,12,0,brick,red\n"),

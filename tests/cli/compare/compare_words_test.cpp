@@ -63,7 +63,9 @@ TEST(CompareWords, AreRefusedWithTheNearestName) {
        "physics=physics.planar:acceleration=4? attributes follow their plugin behind a colon"},
       {{"physics=physics.planar:acceleration:4"},
        "muster compare: \"acceleration\" is no attribute; expected NAME=VALUE; did you mean acceleration=4?"},
-      {{"coarse.xml"}, "coarse.xml: ticks of 0.1 s against 0.05 s; expected one dt"},
+      {{"coarse.xml"},
+       "coarse.xml: ticks of 0.1 s against 0.05 s, so that no tick has one beside it; expected dt=\"0.05\" in both "
+       "worlds"},
       {{"absent.xml"}, "absent.xml: no such file"}};
   for (const auto& [words, message] : cases) {
     std::vector<std::string> all = {"compare", "world.xml"};

@@ -64,6 +64,11 @@ TEST_F(Words, WhatAnotherOptionMakesVoidIsRefused) {
                        "two" +
                        see);
   }
+  refused({"--view", "--origin", "app.foxglove.dev"},
+          "--origin: \"app.foxglove.dev\" is no origin of a page; expected https://app.foxglove.dev");
+  refused({"--view", "--origin", "https://app.foxglove.dev/view"},
+          "--origin: \"https://app.foxglove.dev/view\" is no origin of a page; expected https://app.foxglove.dev");
+  refused({"--set", "good/x:=2"}, "--set \"good/x:=2\" has := as ROS has it; expected PATH=VALUE: --set good/x=2");
   expect_error(
       folder.muster({"swap", "world.xml", "--plugins", MUSTER_TOYS, "--at", "0.1", "--instance", "good", "--plugin",
                      "test.good", "--expected"}),

@@ -234,7 +234,8 @@ TEST(Fault5, FoldersOfPluginsThatAreNotThereAreTold) {
 TEST(Fault13, TwoOfOneNameAreRefusedWithBothPlaces) {
   const ProgramFolder folder;
   folder.expect_refused(world_of("\n<robot name=\"a\" at=\"0 0 0\"/>\n<robot name=\"a\" at=\"1 0 0\"/>"),
-                        "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1");
+                        "world.xml:3:1: a second robot is called \"a\"; the first is at world.xml:2:1; expected "
+                        "another name for one of them");
   folder.expect_refused(
       world_of("\n<test.good/>\n<test.good/>"),
       "world.xml:3:1: a second instance is called \"test.good\"; the first is at world.xml:2:1; give one of them a "

@@ -49,7 +49,13 @@ TEST(Waypoint, ColumnsThatNobodyReadsAreRefused) {
   EXPECT_EQ(error("control.waypoint", "x[m],y[m],tme\n3,0,1\n"),
             "path.csv:1:11: column \"tme\" means nothing here; expected one of x, y");
   EXPECT_EQ(error("control.path3d", "t[s],x[m],y[m],z[m]\n1,3,0,1\n"),
-            "path.csv:1:1: column \"t\" means nothing here; expected one of x, y, z");
+            "path.csv:1:1: column \"t\" means nothing here; these places have no times, which follow from the speed; "
+            "expected x, y, z without t (poses over time carry a robot by physics.replay)");
+  EXPECT_EQ(
+      error("control.waypoint", "x0[m],y0[m],x1[m],y1[m],width[m],radius[m]\n3,0,1,2,1,1\n"),
+      "path.csv:1:1: column \"x0\" means nothing here; this is a roadmap, pieces from x0, y0 to x1, y1, and no list "
+      "of places; expected x[m],y[m], as `muster roadmap --path` writes a way on it, or <control.navigate>, which "
+      "takes the roadmap");
   EXPECT_EQ(error("control.waypoint", "x[m],y[m]\n"),
             "path.csv:1:1: has no rows below its header; expected one at least");
 }
