@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "names.hpp"
@@ -127,6 +128,14 @@ bool is_date(std::string_view text) {
          });
 }
 
+// "0.016666666666666666" of "1/60".
+std::string value_of_fraction(std::string_view text) {
+  const auto slash = text.find('/');
+  if (slash == text.npos) return "";
+  const auto above = parse_real(text.substr(0, slash)), below = parse_real(text.substr(slash + 1));
+  return above && below && *below != 0 && std::isfinite(*above / *below) ? print_real(*above / *below) : "";
+}
+
 template <class Number>
 std::string why_not(std::string_view text, std::string_view kind) {
   std::string refusal = quote(text) + " is not " + std::string(kind);
@@ -143,6 +152,8 @@ std::string why_not(std::string_view text, std::string_view kind) {
   for (const auto& [blank, code] : {std::pair("\u00a0", "U+00A0"), {"\u202f", "U+202F"}, {"\u2009", "U+2009"}})
     if (text.find(blank) != text.npos)
       return refusal + "; a blank in it is the no-break or thin space " + code + "; expected a plain one";
+  if (const std::string value = value_of_fraction(text); std::is_same_v<Number, double> && !value.empty())
+    return refusal + ", but a fraction; expected " + value;
   if (is_date(text)) return refusal + ", but a date; expected seconds (muster import reads dates)";
   if (text.front() == '+') return refusal + "; a positive number is written without '+'";
   if (is_hexadecimal(text)) return refusal + "; numbers are written in decimal" + decimal_of(text);

@@ -54,6 +54,7 @@ TEST(Number, SaysWhyNot) {
       {"1e400", R"("1e400" is out of range)"},
       {"-1e400", R"("-1e400" is out of range)"},
       {"1e-400", R"("1e-400" is out of range)"},
+      {"1/60", R"("1/60" is not a number, but a fraction; expected 0.016666666666666666)"},
       {"1.5abc", R"("1.5abc" is not a number; "abc" follows the number)"},
       {"10s", R"("10s" is not a number; "s" follows the number: units are fixed and not written)"},
       {"20 dBm", R"("20 dBm" is not a number; "dBm" follows the number: units are fixed and not written)"},
