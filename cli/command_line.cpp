@@ -329,6 +329,11 @@ void CommandLine::parse(const Arguments& arguments) {
   } catch (const CLI::ParseError& e) {
     refuse(e.what() + counted(*app_, e.what()));
   }
+  for (const CLI::Option* option : app_->get_options()) {
+    const auto& given = option->results();
+    if (std::any_of(given.begin(), given.end(), [](const std::string& word) { return word.empty(); }))
+      refuse(option->get_name() + " has an empty value; expected one behind it");
+  }
   check_effects();
 }
 

@@ -96,7 +96,10 @@ void watch_interrupt() {
     [[maybe_unused]] const auto written = write(STDERR_FILENO, note, sizeof note - 1);
   };
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C ends at once
-  sigaction(SIGINT, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup asked for it to be ignored
 }
 
 }  // namespace muster::cli

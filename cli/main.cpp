@@ -157,6 +157,7 @@ int unwritten(int reason) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_error();
   report_crashes();
   watch_callbacks();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end

@@ -28,7 +28,11 @@ const char* word_of(SetKind kind) {
 
 RunRecord::RunRecord(const Simulation& run, const std::vector<RecordDeclaration>& tables,
                      const std::filesystem::path& folder, const Library::SearchPath& plugins)
-    : folder_(folder), recorder_(run, tables, folder), scene_(run, plugins), listed_(listed(run)) {
+    : folder_(folder),
+      lock_(folder, "--out"),
+      recorder_(run, tables, folder),
+      scene_(run, plugins),
+      listed_(listed(run)) {
   for (const char* of_an_earlier_run : {viewer::run_file, "run.html"}) {
     std::error_code ignored;
     std::filesystem::remove(folder / of_an_earlier_run, ignored);

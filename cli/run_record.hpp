@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "folder_lock.hpp"
 #include "kernel/record.hpp"
 #include "text/json.hpp"
 #include "viewer/record_folder.hpp"
@@ -33,6 +34,7 @@ class RunRecord {
   void complete(const Simulation& run, Json& outcome);
 
   std::filesystem::path folder_;
+  FolderLock lock_;
   Recorder recorder_;
   viewer::RunScene scene_;
   std::vector<std::filesystem::path> tables_;

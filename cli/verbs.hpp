@@ -67,4 +67,7 @@ void expect_channel(const Simulation& run);
 bool interrupted();
 void watch_interrupt();
 
+// From now on what cannot be written to standard error is lost, and nothing else is.
+void keep_standard_error();
+
 }  // namespace muster::cli

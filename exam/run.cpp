@@ -30,11 +30,17 @@ std::string quoted(const std::string& text) {
   return result + '\'';
 }
 
-std::string filled(std::string command, const std::string& slot, const fs::path& value) {
-  const std::string word = quoted(value.string());
-  for (std::size_t at = command.find(slot); at != command.npos; at = command.find(slot, at + word.size()))
-    command.replace(at, slot.size(), word);
-  return command;
+// In one pass, so that a slot's name in a value is no slot: a folder may be called anything.
+std::string filled(const std::string& command, const std::map<std::string, fs::path>& values) {
+  std::string result;
+  for (std::size_t at = 0; at < command.size();) {
+    const auto slot = std::find_if(values.begin(), values.end(), [&](const auto& each) {
+      return command.compare(at, each.first.size(), each.first) == 0;
+    });
+    result += slot == values.end() ? command.substr(at, 1) : quoted(slot->second.string());
+    at += slot == values.end() ? 1 : slot->first.size();
+  }
+  return result;
 }
 
 std::string first_line(const fs::path& file) {
@@ -89,12 +95,11 @@ class Runner {
   fs::path errors(const std::string& name) const { return order_.reports / (name + ".err"); }
 
   void start(const fs::path& folder, const std::string& name) {
-    std::string command = order_.command;
-    command = filled(command, "{world}", folder);
-    command = filled(command, "{data}", folder / "measured.csv");
-    command = filled(command, "{second}", folder / "second.csv");
-    command = filled(command, "{answer}", order_.exam / "answers" / (name + ".json"));
-    command = filled(command, "{out}", order_.reports / name);
+    const std::string command = filled(order_.command, {{"{world}", folder},
+                                                        {"{data}", folder / "measured.csv"},
+                                                        {"{second}", folder / "second.csv"},
+                                                        {"{answer}", order_.exam / "answers" / (name + ".json")},
+                                                        {"{out}", order_.reports / name}});
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, part(name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);

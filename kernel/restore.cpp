@@ -1,5 +1,6 @@
 // Restores a snapshot in place: all of it is checked against the run before anything changes.
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -20,7 +21,20 @@ bool is_at(const InstanceDeclaration& declared, const Snapshot::SavedInstance& s
 }
 
 // Checks that numbers of rows and of blobs fit their columns, so that no cell is read outside its table.
-bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& cells) {
+// A reference is null or a row of its set, as it is when a step writes it.
+bool refers_to_rows(const Column& column, std::size_t c, const Cells& cells, std::size_t width,
+                    const Snapshot& snapshot) {
+  const auto found = snapshot.sets.find(column.reference);
+  if (column.reference.empty() || found == snapshot.sets.end()) return true;
+  const auto rows = static_cast<double>(std::max<std::size_t>(found->second.names.size(), found->second.listed));
+  for (std::size_t r = 0; r < cells.rows; ++r) {
+    const double row = cells.data[r * width + c];
+    if (!std::isnan(row) && !(row >= 0 && row < rows && row == std::floor(row))) return false;
+  }
+  return true;
+}
+
+bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& cells, const Snapshot& snapshot) {
   const bool queue = table.set().kind == SetKind::queue;
   if (cells.data.size() != cells.rows * table.width() || cells.appended.size() != (queue ? cells.rows : 0))
     return false;
@@ -30,6 +44,7 @@ bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& ce
       const double blob = cells.data[r * table.width() + c];
       if (!(blob >= 0 && blob <= static_cast<double>(cells.blobs.size()))) return false;
     }
+    if (!refers_to_rows(table.columns()[c], c, cells, table.width(), snapshot)) return false;
   }
   return true;
 }
@@ -68,13 +83,14 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     const bool whole =
         saved.alive.size() == saved.names.size() && saved.like.size() == saved.names.size() &&
         std::all_of(saved.like.begin(), saved.like.end(), [&](auto row) { return row < saved.like.size(); });
-    if (!whole) refuse("its set " + quote(name) + " has other rows");
+    const bool is_unique = std::set<std::string>(saved.names.begin(), saved.names.end()).size() == saved.names.size();
+    if (!whole || !(is_unique || !set->is_named())) refuse("its set " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : board_.tables()) {
     const auto found = snapshot.tables.find(name);
     if (found == snapshot.tables.end()) refuse("it has no table " + quote(name));
     if (found->second.columns != table->columns().text()) refuse("its table " + quote(name) + " has other columns");
-    if (!is_sound(*table, snapshot.sets.at(table->set().name), found->second.cells))
+    if (!is_sound(*table, snapshot.sets.at(table->set().name), found->second.cells, snapshot))
       refuse("its table " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : snapshot.tables) {

@@ -82,7 +82,8 @@ const Json::Members& Json::members() const { return stored<Members>(value_, "obj
 const std::string& Json::text() const { return stored<std::string>(value_, "text"); }
 double Json::real() const { return stored<double>(value_, "number"); }
 
-// The printing of nlohmann-json: the shortest digits that give a number back, escapes, and UTF-8 checked.
+// The printing of nlohmann-json: the shortest digits that give a number back, escapes; bytes that are no UTF-8 become
+// U+FFFD.
 struct JsonPrinter {
   using Printed = nlohmann::ordered_json;
 
@@ -99,6 +100,8 @@ struct JsonPrinter {
   Printed operator()(const auto& value) const { return value; }
 };
 
-std::string Json::dump(int indent) const { return std::visit(JsonPrinter(), value_).dump(indent); }
+std::string Json::dump(int indent) const {
+  return std::visit(JsonPrinter(), value_).dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
 
 }  // namespace muster

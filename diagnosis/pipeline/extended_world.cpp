@@ -94,6 +94,7 @@ void copy_folder(const fs::path& from, const fs::path& to) {
   fs::create_directories(to, failed);
   for (const auto& entry : fs::directory_iterator(from)) {
     if (failed) break;
+    if (entry.path().filename().string().starts_with('.')) continue;  // hidden: none of the world's
     if (entry.is_regular_file())
       fs::copy_file(entry.path(), to / entry.path().filename(), fs::copy_options::overwrite_existing, failed);
   }

@@ -74,6 +74,29 @@ TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
             of + "its instance \"n\" is a toy.copy_sense/1; here it is a toy.copy_physics/1");
 }
 
+// A whole file whose cells name rows that are not there: plugins count with them.
+TEST_F(Snapshots, ReferencesToNoRowAreRefusedAndTheRunStands) {
+  const std::string elements =
+      two_robots +
+      "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' size='20'/>\n";
+  Simulation sim = run(elements);
+  step(sim, 3);
+  const uint64_t before = sim.digest();
+  for (const double row : {0.5, -1.0, 2.0, 1e300}) {
+    Snapshot crafted = sim.snapshot();
+    auto& table = crafted.tables.at("outbox/*/message");
+    ASSERT_GT(table.cells.rows, 0u);
+    table.cells.data[0] = row;
+    EXPECT_EQ(error_of([&] { sim.restore(crafted); }),
+              "the snapshot is of another world: its table \"outbox/*/message\" has other rows")
+        << row;
+    EXPECT_EQ(sim.digest(), before);
+  }
+  Snapshot twice = sim.snapshot();
+  twice.sets.at("robot").names[1] = twice.sets.at("robot").names[0];
+  EXPECT_NE(error_of([&] { sim.restore(twice); }), "");
+}
+
 TEST_F(Snapshots, AcrossAPlannedSwapTheRunGoesOnAsItDid) {
   const std::string text = two_robots +
                            "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n"

@@ -17,6 +17,10 @@ TEST(Json, HasNoNumberThatIsNotFinite) {
   EXPECT_EQ(Json(std::numeric_limits<double>::infinity()).dump(), "null");
 }
 
+TEST(Json, BytesThatAreNoUtf8AreReplaced) {
+  EXPECT_EQ(Json(std::string("a\xff" "b")).dump(), "\"a\xef\xbf\xbd" "b\"");
+}
+
 TEST(Json, TakesAListOfNamedValuesForAnObject) {
   EXPECT_EQ((Json{{"b", 1}, {"a", "x"}}).dump(), R"({"b":1,"a":"x"})");
   EXPECT_EQ((Json{{"b", 1}, "a"}).dump(), R"([["b",1],"a"])");

@@ -1,6 +1,8 @@
 // What may happen around a run: interrupts, output that cannot be written, a bare environment.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,11 +21,15 @@ std::vector<std::string> long_run() {
           "1000", "--out",     "out",       "--record", "instance/good/cell"};
 }
 
-TEST(Interrupt, EndsTheRunWithWholeRecords) {
+class Interrupt : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+TEST_P(Interrupt, EndsTheRunWithWholeRecords) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
   Surroundings around;
-  around.meanwhile = [](int process) { ::kill(process, SIGINT); };
+  around.meanwhile = [](int process) { ::kill(process, GetParam()); };
   const auto outcome = folder.muster(long_run(), around);
   EXPECT_EQ(outcome.exit, 130) << outcome.err;
   EXPECT_LT(outcome.wall_seconds, 10);
@@ -46,6 +52,30 @@ TEST(Output, ThatCannotBeWrittenIsAnErrorOfIts) {
   auto many = run;
   many.insert(many.end(), {"--until", "2000", "--digest-every", "1"});
   expect_error(folder.muster(many, full), 74, "standard output cannot be written");
+}
+
+// Two runs would write over each other's tables.
+TEST(Output, AFolderThatAnotherRunWritesToIsRefused) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  std::filesystem::create_directories(folder.path() / "out");
+  const int other = ::open((folder.path() / "out").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(other, LOCK_EX), 0);
+  const std::vector<std::string> words = {"run", "world.xml", "--plugins", toys, "--out", "out"};
+  expect_error(folder.muster(words), 74, "--out: out is written by another run at this time; expected another folder");
+  ::close(other);
+  EXPECT_EQ(folder.muster(words).exit, 0);
+}
+
+TEST(Output, AStandardErrorThatCannotBeWrittenEndsNoRun) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  for (const std::string to : {"/dev/full", "&-"}) {
+    Surroundings around;
+    around.wrapper = {"sh", "-c", "exec \"$0\" \"$@\" 2>" + to};
+    EXPECT_EQ(folder.muster({"run", "world.xml", "--plugins", toys}, around).exit, 0) << to;
+    EXPECT_EQ(folder.muster({"run", "nowhere.xml"}, around).exit, 2) << to;
+  }
 }
 
 TEST(Output, AFolderThatCannotBeMadeOrWrittenIsNamed) {

@@ -68,6 +68,7 @@ TEST_F(Words, WhatAnotherOptionMakesVoidIsRefused) {
           "--origin: \"app.foxglove.dev\" is no origin of a page; expected https://app.foxglove.dev");
   refused({"--view", "--origin", "https://app.foxglove.dev/view"},
           "--origin: \"https://app.foxglove.dev/view\" is no origin of a page; expected https://app.foxglove.dev");
+  refused({"--out", ""}, "muster run: --out has an empty value; expected one behind it" + see);
   refused({"--set", "good/x:=2"}, "--set \"good/x:=2\" has := as ROS has it; expected PATH=VALUE: --set good/x=2");
   expect_error(
       folder.muster({"swap", "world.xml", "--plugins", MUSTER_TOYS, "--at", "0.1", "--instance", "good", "--plugin",
