@@ -104,7 +104,7 @@ class Converter {
     Link link;
     link.name = name;
     link.line = line;
-    if (!from->inertial && outline_.with_inertial.count(name)) {
+    if (!from->inertial && outline_.mass_lines.count(name)) {
       source_.fail(line, "link '" + name + "': urdfdom dropped its <inertial>");
     }
     bool has_all_shapes = true;
@@ -151,7 +151,9 @@ class Converter {
 
   // In the inertial frame a link's inertia is given about its centre of mass.
   Mass mass(const urdf::Inertial& from, const std::string& name, int line, const std::vector<Shape>& shapes) {
-    if (!(from.mass > 0)) source_.fail(line, "link '" + name + "': mass is not above 0");
+    if (!(from.mass > 0))
+      source_.fail(outline_.mass_lines.at(name),
+                   "link '" + name + "': <mass value=\"" + print_number(from.mass) + "\"/>; " + expected_mass(shapes));
     Eigen::Matrix3d inertia;
     inertia << from.ixx, from.ixy, from.ixz, from.ixy, from.iyy, from.iyz, from.ixz, from.iyz, from.izz;
     Mass result{from.mass, Eigen::Vector3d::Zero(), inertia};

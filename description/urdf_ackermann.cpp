@@ -41,14 +41,17 @@ std::size_t wheel_on(const Source& source, const XMLElement& element, const Robo
                   "; expected one continuous joint on its link");
 }
 
-void check_kingpin(const Source& source, const XMLElement& element, const Joint& joint, const Eigen::Isometry3d& frame,
-                   double y) {
+void check_kingpin(const Source& source, const XMLElement& element, const Robot& robot, std::size_t kingpin,
+                   const Eigen::Isometry3d& frame, double y) {
+  const Joint& joint = robot.joints[kingpin];
   const int line = element.GetLineNum();
   const std::string what = tag(element) + "joint '" + joint.name + "' ";
   if (joint.kind != JointKind::revolute && joint.kind != JointKind::continuous)
     source.fail(line, what + "is " + law_of(joint.kind).name + "; expected revolute or continuous: it steers");
-  if (!(frame.linear() * joint.axis).cross(Vector3d::UnitZ()).isZero(axis_tolerance))
+  if (!(frame.linear() * joint.axis).cross(Vector3d::UnitZ()).isZero(axis_tolerance)) {
+    refuse_degrees(source, *element.GetDocument()->RootElement(), robot, kingpin);
     source.fail(line, what + "does not turn about the body's z axis: it cannot steer");
+  }
   if (std::abs(frame.translation().y() - y) > placement_tolerance) {
     source.fail(line, what + "is not half a kingpin_width from the body's x axis (left: +y, right: -y): it is at y = " +
                           print_number(frame.translation().y()) + " m, expected " + print_number(y) +
@@ -92,15 +95,17 @@ Steering read_steering(const Source& source, const XMLElement& element, const Di
   for (std::size_t side = 0; side < 2; ++side) {
     const std::size_t kingpin = steering.kingpins[side];
     const Eigen::Isometry3d frame = frame_of(source, element, robot, kingpin);
-    check_kingpin(source, element, robot.joints[kingpin], frame, (side == 0 ? 0.5 : -0.5) * steering.kingpin_width);
+    check_kingpin(source, element, robot, kingpin, frame, (side == 0 ? 0.5 : -0.5) * steering.kingpin_width);
     const std::size_t wheel = wheel_on(source, element, robot, kingpin);
     Robot straight = robot;
     straight.joints[kingpin].kind = JointKind::fixed;
     const Eigen::Isometry3d own = frame_of(source, element, straight, wheel);
     const Vector3d axis = own.linear() * robot.joints[wheel].axis, middle = own.translation();
-    if (!axis.cross(Vector3d::UnitY()).isZero(axis_tolerance))
+    if (!axis.cross(Vector3d::UnitY()).isZero(axis_tolerance)) {
+      refuse_degrees(source, *element.GetDocument()->RootElement(), robot, wheel);
       source.fail(line,
                   tag(element) + "joint '" + robot.joints[wheel].name + "' does not turn about the body's y axis");
+    }
     if (std::abs(middle.x() - steering.rear_axle - steering.wheelbase) > placement_tolerance) {
       source.fail(line, tag(element) + "wheelbase=\"" + element.Attribute("wheelbase") +
                             "\" contradicts the joints: wheel '" + robot.joints[wheel].name + "' is " +

@@ -67,15 +67,15 @@ void check_numbers(const Source& source, const XMLElement& element, const std::s
   }
 }
 
-bool has_inertial(const Source& source, const XMLElement& link, const std::string& name) {
+void check_inertial(const Source& source, const XMLElement& link, const std::string& name, Outline& outline) {
   const XMLElement* inertial = link.FirstChildElement("inertial");
-  if (!inertial) return false;
+  if (!inertial) return;
   for (const char* part : {"mass", "inertia"}) {
     if (!inertial->FirstChildElement(part)) {
       source.fail(inertial->GetLineNum(), "link '" + name + "': <inertial> has no <" + part + ">");
     }
   }
-  return true;
+  outline.mass_lines[name] = inertial->FirstChildElement("mass")->GetLineNum();
 }
 
 struct Edge {
@@ -271,7 +271,7 @@ Outline check_urdf(const Source& source, const XMLElement& robot) {
     check_names(source, *element);
     check_numbers(source, *element, kind + " '" + name + "'");
     if (kind == "link") {
-      if (has_inertial(source, *element, name)) outline.with_inertial.insert(name);
+      check_inertial(source, *element, name, outline);
       continue;
     }
     check_joint(source, *element, name);

@@ -25,7 +25,7 @@ struct Source {
 // Links and joints by name, with their lines; `order` lists joints so that parents come before children.
 struct Outline {
   std::map<std::string, int> link_lines, joint_lines;
-  std::set<std::string> with_inertial;  // links
+  std::map<std::string, int> mass_lines;  // of links with an <inertial>
   std::vector<std::string> order;
   std::string root;
 };
@@ -59,6 +59,10 @@ void warn_of_blind_lasers(const Source& source, const tinyxml2::XMLElement& root
 // After all is read: warns of angles that look like degrees, of friction that looks like per cent, and of transmissions
 // of joints that are not there.
 void warn_of_doubts(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+
+// The angles of a joint, or of one between it and the body, that are none in radians, and what they are in degrees:
+// fails with them. What else is wrong with the place or the axis of such a joint follows from it.
+void refuse_degrees(const Source& source, const tinyxml2::XMLElement& root, const Robot& robot, std::size_t joint);
 
 // Turns joints whose axis is within a degree of an axis of the robot's frame onto it, with a warning.
 void snap_axes(const Source& source, const Outline& outline, Robot& robot);

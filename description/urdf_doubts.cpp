@@ -11,9 +11,10 @@ using tinyxml2::XMLElement;
 
 namespace {
 
-constexpr double turn = 6.3;             // rad; a whole one in two digits
-constexpr double degrees_of_turn = 360;  // a limit beyond it means none
-constexpr double stickiest = 5;          // coefficient of friction; rubber on stone has some 1
+constexpr double turn = 6.3;                      // rad; a whole one in two digits
+constexpr double degrees_of_turn = 360;           // a limit beyond it means none
+constexpr double radians = 0.017453292519943295;  // in a degree
+constexpr double stickiest = 5;                   // coefficient of friction; rubber on stone has some 1
 
 class Doubts {
  public:
@@ -52,7 +53,7 @@ class Doubts {
   }
 
   static std::string in_radians(double degrees) {
-    return print_number(degrees) + " degrees are " + print_number(degrees * 0.017453292519943295) + " rad";
+    return print_number(degrees) + " degrees are " + print_number(degrees * radians) + " rad";
   }
 
   void angles(const XMLElement& element, const std::string& owner) {
@@ -86,7 +87,43 @@ class Doubts {
   Robot& robot_;
 };
 
+const XMLElement* joint_called(const XMLElement& root, const std::string& name) {
+  for (const auto* each = root.FirstChildElement("joint"); each; each = each->NextSiblingElement("joint")) {
+    const char* own = each->Attribute("name");
+    if (own && name == own) return each;
+  }
+  return nullptr;
+}
+
+// `rpy="-1.570796 0 0"` of degrees; "" where no angle is beyond a turn.
+std::string meant_angles(const char* rpy) {
+  const auto values = parse_numbers(rpy ? rpy : "");
+  if (!values || std::none_of(values->begin(), values->end(), [](double v) { return std::abs(v) > turn; })) return "";
+  std::string result;
+  for (const double degrees : *values) {
+    constexpr double digits = 1e6;
+    result += (result.empty() ? "" : " ") + print_exactly(std::round(degrees * radians * digits) / digits + 0.0);
+  }
+  return "rpy=\"" + result + '"';
+}
+
 }  // namespace
+
+void refuse_degrees(const Source& source, const XMLElement& root, const Robot& robot, std::size_t joint) {
+  for (std::size_t next = joint; next < robot.joints.size();) {
+    const Joint& here = robot.joints[next];
+    const XMLElement* element = joint_called(root, here.name);
+    const XMLElement* origin = element ? element->FirstChildElement("origin") : nullptr;
+    const std::string meant = origin ? meant_angles(origin->Attribute("rpy")) : "";
+    if (!meant.empty())
+      source.fail(origin->GetLineNum(), "joint '" + here.name + "': <origin> rpy=\"" + origin->Attribute("rpy") +
+                                            "\": more than a full turn in radians; are these degrees? expected " +
+                                            meant);
+    const auto above = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                    [&](const Joint& each) { return each.child == here.parent; });
+    next = static_cast<std::size_t>(above - robot.joints.begin());
+  }
+}
 
 void warn_of_doubts(const Source& source, const XMLElement& root, Robot& robot) {
   Doubts doubts(source, robot);

@@ -331,6 +331,7 @@ Eigen::Vector3d place_of_turning(const Source& source, const XMLElement& element
   const Eigen::Isometry3d frame = *carrier * joint.origin;
   const Eigen::Vector3d axis = frame.linear() * joint.axis;
   if (!(axis - Eigen::Vector3d::UnitY()).isZero(axis_tolerance)) {
+    refuse_degrees(source, *element.GetDocument()->RootElement(), robot, index);
     const double off = std::atan2(axis.cross(Eigen::Vector3d::UnitY()).norm(), axis.y()) * 180 / 3.141592653589793;
     const Eigen::Vector3d meant = frame.linear().transpose() * Eigen::Vector3d::UnitY();
     const auto clean = [](double v) { return print_exactly(std::abs(v) < 1e-4 ? 0 : std::round(v * 1e6) / 1e6 + 0.0); };

@@ -102,6 +102,15 @@ std::string inertial_text(const Mass& mass) {
          "\"/></inertial>";
 }
 
+std::string expected_mass(const std::vector<Shape>& shapes) {
+  constexpr double water = 1000;  // kg/m3
+  const std::optional<Mass> full = filled(shapes);
+  return "expected the mass in kg, above 0" +
+         (full ? " (its collision shapes filled with water weigh " + print_number(water * full->mass) + " kg)"
+               : std::string()) +
+         ", or no <inertial> if the link is a frame without mass";
+}
+
 void check_inertia(Mass& mass, const Eigen::Isometry3d& frame, const std::vector<Shape>& shapes,
                    std::vector<std::string>& warnings) {
   const std::optional<Mass> full = filled(shapes);

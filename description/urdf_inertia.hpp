@@ -16,6 +16,9 @@ std::optional<Mass> filled(const std::vector<Shape>& shapes);
 // An <inertial> with these figures, as a link would have it.
 std::string inertial_text(const Mass& mass);
 
+// `expected a mass above 0: ...`, of a link with these shapes that has none.
+std::string expected_mass(const std::vector<Shape>& shapes);
+
 // Checks the mass and inertia of a link as its URDF gives them: `mass` in its inertial frame, which `frame` puts into
 // the link. Throws std::runtime_error, without a place, for an inertia that no body has; one that breaks the triangle
 // inequality by up to a tenth is widened until it holds. Warns of that, of an inertia beyond ten times or below a tenth

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "text/names.hpp"
+#include "text/number.hpp"
 
 namespace muster {
 namespace {
@@ -133,10 +134,52 @@ std::string referred_names(const Blackboard& board, const Set& set, std::size_t 
   return "";
 }
 
+// Distance of the two rows of another set that a row refers to, where those have places, as the endpoints of a link do;
+// NaN where there is none.
+double apart(const Blackboard& board, const Set& set, std::size_t row) {
+  const auto numbers = [&](const Set& of, std::size_t at, const auto& is_meant) {
+    std::vector<double> result;
+    for (const auto& [name, table] : board.tables()) {
+      if (&table->set() != &of || at >= table->now().rows) continue;
+      for (std::size_t c = 0; c < table->width(); ++c) {
+        if (is_meant(table->columns()[c])) result.push_back(table->now().data[at * table->width() + c]);
+      }
+      if (!result.empty()) return result;
+    }
+    return result;
+  };
+  const Set* ends = nullptr;
+  const auto refers = [&](const Column& column) {
+    if (!ends && !column.reference.empty()) ends = board.find_set(column.reference);
+    return ends && board.find_set(column.reference) == ends;
+  };
+  const auto is_place = [](const Column& c) { return c.name == "x" || c.name == "y" || c.name == "z"; };
+  const auto both = numbers(set, row, refers);
+  if (both.size() != 2 || !(both[0] >= 0) || !(both[1] >= 0)) return null();
+  const auto a = numbers(*ends, static_cast<std::size_t>(both[0]), is_place);
+  const auto b = numbers(*ends, static_cast<std::size_t>(both[1]), is_place);
+  return a.size() == 3 && b.size() == 3 ? std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) : null();
+}
+
+// Of a cell that is no number because the two ends of its row are at one place; else "".
+std::string at_one_place(const Blackboard& board, const Claim& claim, std::size_t row, double value) {
+  const Set& set = claim.out->set();
+  const bool is_poison = std::bit_cast<uint64_t>(value) == poison_bits;
+  if (set.kind != SetKind::listed || claim.lists || is_poison || std::isfinite(value) || apart(board, set, row) != 0)
+    return "";
+  return std::string(std::isinf(value) ? "is infinite" : "is NaN") +
+         ": the two are 0 m apart, at one place; expected a number there, too: hold the distance above 0, as by "
+         "std::max(0.01, distance), before a division or a logarithm, or move one of the two in the world";
+}
+
+bool is_queue_of_one(const Claim& claim) { return claim.row >= 0 && claim.out->set().kind == SetKind::queue; }
+
 std::string cell_name(const Blackboard& board, const Claim& claim, std::size_t row, std::size_t column) {
   const Set& set = claim.out->set();
   const std::size_t number = claim.row >= 0 && set.kind != SetKind::queue ? static_cast<std::size_t>(claim.row) : row;
-  const std::string name = set.is_named() && number < set.names.size() ? set.names[number] : std::to_string(number);
+  const std::string name = is_queue_of_one(claim)                        ? claim.name.row
+                           : set.is_named() && number < set.names.size() ? set.names[number]
+                                                                         : std::to_string(number);
   const std::string of = set.kind == SetKind::listed && !claim.lists ? referred_names(board, set, number) : "";
   return claim.name.set + '/' + name + '/' + claim.name.quantity + (of.empty() ? "" : " (" + of + ")") + ": " +
          claim.columns[column].title();
@@ -150,10 +193,25 @@ bool is_others(const Claim& claim, std::size_t row) {
          std::find(claim.others.begin(), claim.others.end(), static_cast<int>(row)) != claim.others.end();
 }
 
-bool is_queue_of_one(const Claim& claim) { return claim.row >= 0 && claim.out->set().kind == SetKind::queue; }
-
 // True where the claimant of one owner's queue appends a row of another owner.
 bool speaks_for_another(const Claim& claim, double owner) { return is_queue_of_one(claim) && owner != claim.row; }
+
+// `is 0, which is base, but it speaks for rover alone; expected "radio" as send() and append() fill it in`.
+std::string for_itself_alone(const Blackboard& board, const Claim& claim, double owner) {
+  const Column& column = claim.columns[0];
+  const Set* owners = board.find_set(column.reference);
+  const auto row = static_cast<std::size_t>(owner);
+  std::string result = "is " + print_real(owner);
+  if (owners && owners->is_named() && row < owners->names.size()) result += ", which is " + owners->names[row];
+  result += ", but it speaks for " + claim.name.row + " alone; expected " + quote(column.name) +
+            " to be left as send() and append() fill it in";
+  for (std::size_t c = 1; c < claim.columns.size(); ++c) {
+    if (claim.columns[c].reference == column.reference)
+      return result + ", and whom it is for in " + quote(claim.columns[c].name) +
+             (claim.columns[c].nullable ? " (null(): all)" : "");
+  }
+  return result;
+}
 
 // Fast path of the check: true where all written cells are finite, and all references are row numbers. No message.
 bool is_plain(const Columns& columns, const Written& cells, const std::vector<double>& referred) {
@@ -178,9 +236,12 @@ std::string check(const Instance& instance, const Blackboard& board, const Claim
       const auto& column = claim.columns[c];
       if (column.bytes) continue;  // filled by put_bytes(), or empty
       std::string wrong = wrong_value(column, data[r * width + c]);
+      if (const std::string near = wrong.empty() ? "" : at_one_place(board, claim, r, data[r * width + c]);
+          !near.empty())
+        wrong = near;
       if (wrong.empty()) wrong = wrong_reference(column, data[r * width + c], referred[c]);
       if (wrong.empty() && c == 0 && speaks_for_another(claim, data[r * width]))
-        wrong = "is not " + claim.name.row + ", for which alone it may speak";
+        wrong = for_itself_alone(board, claim, data[r * width]);
       if (!wrong.empty()) return cell_name(board, claim, r, c) + ' ' + wrong;
     }
   }

@@ -19,13 +19,25 @@ std::vector<std::string> set_names(const Blackboard& board) {
   return result;
 }
 
+// `; expected {robot}`, of what the plugin's parameters refer to; for one that is none, how it becomes one.
+std::string expected_reference(const Instance& instance, const std::string& wrong) {
+  std::vector<std::string> references;
+  for (uint32_t i = 0; i < instance.plugin().param_count; ++i) {
+    const muster_param& param = instance.plugin().params[i];
+    if (param.kind == MUSTER_REFERENCE) references.push_back('{' + std::string(param.name) + '}');
+  }
+  if (!references.empty()) return "; " + suggest('{' + wrong + '}', references);
+  return "; expected reference(\"" + wrong + "\", \"robot\", \"...\") there, or the name of another set than robot";
+}
+
 // "{robot}" becomes the name of the row that the parameter `robot` refers to.
 std::string substituted(const std::string& row, const Instance& instance, const Surroundings& around) {
   if (row.size() < 3 || row.front() != '{' || row.back() != '}') return row;
   const std::string param = row.substr(1, row.size() - 2);
   const int found = instance.find_param(param);
   if (found < 0 || instance.plugin().params[found].kind != MUSTER_REFERENCE)
-    throw instance.refused("claims {" + param + "}, which is no reference among its parameters");
+    throw instance.refused("claims {" + param + "}, which is no reference among its parameters" +
+                           expected_reference(instance, param));
   const double value = instance.params()[static_cast<std::size_t>(found)];
   if (value < 0) throw instance.refused("has no attribute " + quote(param) + ", which it needs");
   const Set& set = *around.board->find_set(instance.plugin().params[found].text);

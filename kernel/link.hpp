@@ -57,7 +57,8 @@ class Linker {
   };
   std::vector<Missing> missing_providers() const;
 
-  // Warns of commands, messages and similar tables written but never read, and of world elements that no plugin reads.
+  // Warns of commands, messages and similar tables written but never read or read before, and of world elements that no
+  // plugin reads.
   std::vector<std::string> unread() const;
 
   // Checks all claims against each other, before anything changes. Throws Error with the names of both sides.
@@ -78,10 +79,16 @@ class Linker {
   bool is_of_the_world(const std::string& logical) const;
   bool is_minded(const std::string& set) const;
   bool is_for_others(const Claimed::By& writer) const;
+  bool is_heard(const std::string& logical) const;
+  bool is_unheard(const Instance& instance, const Claim& claim) const;
+  std::string meant_table(const Instance& instance, const Claim& claim) const;
+  void tell_unheard(std::vector<std::string>& told) const;
+  void tell_late(std::vector<std::string>& told) const;
   std::vector<std::string> readable() const;
   std::string expected_writer(const TableName& name, const std::string& table) const;
   void check_reads(const std::string& logical, const Claimed& c) const;
   std::string one_of_a_kind(const Claimed::By& one, const Claimed::By& other) const;
+  std::string which_of_two(const Claimed::By& one, const Claimed::By& other) const;
   void check_writers(const std::string& logical, const Claimed& c) const;
   void check_columns(const std::string& logical, const Claimed& c) const;
   void check_stages(const std::string& logical, const Claimed& c) const;

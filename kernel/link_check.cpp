@@ -178,6 +178,23 @@ std::string Linker::one_of_a_kind(const Claimed::By& one, const Claimed::By& oth
   return ": a world has one " + kind(provider) + " plugin, which works for all";
 }
 
+// Of two that command a robot, where one of them only executes the commands of a program that the world does not have,
+// as control.car does beside control.waypoint: which to take away, and why. Otherwise no more than that one has to go.
+std::string Linker::which_of_two(const Claimed::By& one, const Claimed::By& other) const {
+  for (const auto& [executor, driver] : {std::pair(&one, &other), std::pair(&other, &one)}) {
+    const std::string plugin = executor->instance->declared().plugin;
+    for (const Claim& claim : executor->instance->claims()) {
+      const Quantity* given =
+          claim.kind == MUSTER_READ && !claim.file ? standard_quantity(standard_, claim.name) : nullptr;
+      if (!given || plugin != given->user || claimed_.at(claim.name.logical()).is_written()) continue;
+      return "expected no " + plugin + ": it executes the " + quote(claim.name.text()) +
+             " of a program, which nobody writes here, and " + driver->instance->declared().plugin +
+             " drives the robot by itself";
+    }
+  }
+  return "expected one of the two" + one_of_a_kind(one, other);
+}
+
 void Linker::check_writers(const std::string& logical, const Claimed& c) const {
   if (!c.writers.empty() && !c.adders.empty()) {
     const Instance& writer = *c.writers[0].instance;
@@ -193,8 +210,8 @@ void Linker::check_writers(const std::string& logical, const Claimed& c) const {
       const auto& other = c.writers[j];
       if (board_.find_set(one.get().name.set)->kind == SetKind::queue) continue;  // each appends rows of its own
       if (collide(one.get(), other.get()))
-        throw one.instance->refused("writes " + quote(one.get().name.text()) + both(*other.instance) +
-                                    "; expected one of the two" + one_of_a_kind(one, other));
+        throw one.instance->refused("writes " + quote(one.get().name.text()) + both(*other.instance) + "; " +
+                                    which_of_two(one, other));
       check_phase("writes", logical, one, other);
     }
   }

@@ -105,6 +105,8 @@ std::vector<std::string> Linker::unread() const {
                             : ""));
     }
   }
+  tell_unheard(result);
+  tell_late(result);
   return result;
 }
 

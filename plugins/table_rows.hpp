@@ -17,7 +17,8 @@ class TableRows {
   }
 
   // "FILE:LINE:1: " of the row, counted from 0: a row is a line, and the header is the first.
-  std::string at(std::size_t row) const { return file_ + ':' + std::to_string(row + 2) + ":1: "; }
+  std::string at(std::size_t row) const { return file_ + ':' + std::to_string(line(row)) + ":1: "; }
+  static std::size_t line(std::size_t row) { return row + 2; }
   const std::string& file() const { return file_; }
 
  private:

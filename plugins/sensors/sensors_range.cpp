@@ -12,6 +12,7 @@
 #include "obstructions.hpp"
 #include "plugins/other_kinds.hpp"
 #include "plugins/periods.hpp"
+#include "plugins/table_rows.hpp"
 
 namespace {
 
@@ -73,7 +74,10 @@ air, the time that a measurement takes.)";
         pose(s.read<Pose>("endpoint/*/pose")),
         obstructions(s),
         range(s.write<Range>("range/*/message", MUSTER_SENSED)) {
-    if (!s.text("biases").empty()) biases = s.file<PairBias>("biases");
+    if (!s.text("biases").empty()) {
+      biases = s.file<PairBias>("biases");
+      places.emplace(s, "biases");
+    }
     for (const std::string& name : names_in(s.host(), "peers")) peers.push_back(radio_named(s, name));
     if (robot >= 0 && peers.size() == 1) expect_no_own(s);
   }
@@ -124,9 +128,28 @@ air, the time that a measurement takes.)";
   Stated stated(const Step& k) const {
     Stated result;
     if (!biases) return result;
-    for (const PairBias& row : k[*biases])
-      result[pair_of(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b))] = row.bias;
+    for (std::size_t i = 0; i < k[*biases].size(); ++i) {
+      const PairBias& row = k[*biases][i];
+      const auto pair = pair_of(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b));
+      if (!result.emplace(pair, row.bias).second) refuse_second(k, i);
+    }
     return result;
+  }
+
+  // A pair that has a row already, in this order or the other.
+  [[noreturn]] void refuse_second(const Step& k, std::size_t second) const {
+    const auto pair = [&](std::size_t i) {
+      const PairBias& row = k[*biases][i];
+      return pair_of(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b));
+    };
+    std::size_t first = 0;
+    while (pair(first) != pair(second)) ++first;
+    const PairBias& row = k[*biases][second];
+    const auto name = [&](double radio) { return std::string(k.name("radio", static_cast<std::size_t>(radio))); };
+    const bool is_turned = k[*biases][first].a != row.a;
+    throw BadInput(places->at(second) + "the pair of " + name(row.a) + " and " + name(row.b) + " has a bias in line " +
+                   std::to_string(places->line(first)) + " already" + (is_turned ? ", in the other order" : "") +
+                   "; expected one row a pair: its bias counts both ways");
   }
 
   bool is_peer(const Step& k, std::size_t radio) const {
@@ -171,6 +194,7 @@ air, the time that a measurement takes.)";
   Obstructions obstructions;
   Out<Range> range;
   std::optional<In<PairBias>> biases;
+  std::optional<TableRows> places;
   std::vector<double> peers;
 };
 

@@ -126,8 +126,12 @@ const Case cases[] = {
      "6: <sensor> has no element <orign>; expected <parent>, <origin> or <ray>; did you mean 'origin'?"},
     {"laser_two_origins", laser("", "", "update_rate='10'", "link='a'/><origin/><origin"),
      "6: <sensor> has a second <origin>"},
-    {"negative_mass", link("a", inertial("-3", "1", "1", "1")), "2: link 'a': mass is not above 0"},
-    {"no_mass", link("a", inertial("0", "1", "1", "1")), "2: link 'a': mass is not above 0"},
+    {"negative_mass", link("a", inertial("-3", "1", "1", "1")),
+     "2: link 'a': <mass value=\"-3\"/>; expected the mass in kg, above 0, or no <inertial> if the link is a frame "
+     "without mass"},
+    {"no_mass", link("a", inertial("0", "1", "1", "1")),
+     "2: link 'a': <mass value=\"0\"/>; expected the mass in kg, above 0, or no <inertial> if the link is a frame "
+     "without mass"},
     {"indefinite_inertia", link("a", inertial("1", "-1", "1", "1")),
      "2: link 'a': inertia is not positive definite: its principal moments are -1, 1 and 1 kg m2, each of which is "
      "above 0 "

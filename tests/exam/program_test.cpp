@@ -70,6 +70,16 @@ TEST_F(Program, RunsACommandOverTheCasesAndGoesOnWhereItWasStopped) {
   EXPECT_EQ(run("run").code, 2);
 }
 
+// A slot's name in a folder's is none: what stands there would be read by the shell.
+TEST_F(Program, RunsNoNameOfACase) {
+  const std::string odd = "case_{data}$(touch " + folder.string() + "/touched)";
+  fs::create_directories(folder / "exam" / odd);
+  const Outcome ran = run("run " + (folder / "exam").string() + " --command \"printf %s {world}\"");
+  EXPECT_EQ(ran.code, 0) << ran.text;
+  EXPECT_FALSE(fs::exists(folder / "touched"));
+  EXPECT_EQ(read(folder / "exam/reports" / (odd + ".txt")), (folder / "exam" / odd).string());
+}
+
 // The script of docs/how-to/bring_your_own_exam.md, as a reader would copy it.
 std::string example() {
   const std::string page = read(fs::path(MUSTER_SOURCE_DIR) / "docs/how-to/bring_your_own_exam.md");

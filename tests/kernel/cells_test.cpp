@@ -48,6 +48,24 @@ TEST_F(CellKinds, EachFaultIsNamed) {
             place + "rounds upward for the whole process; expected it to leave the arithmetic as it was");
 }
 
+// Two endpoints of a radio, `spread` apart.
+TEST_F(CellKinds, ALinkWhoseEndsAreAtOnePlaceIsNamedSo) {
+  const auto fault = [&](const std::string& by, const std::string& spread) {
+    Simulation sim =
+        run(two_robots + "<toy.list modulo='100' spread='" + spread + "'/>\n<toy.loss by='" + by + "'/>\n");
+    return what(error_of([&] { step(sim, 2); }));
+  };
+  const std::string cell = "link/0/level (a, a): level[dBm] ",
+                    near =
+                        ": the two are 0 m apart, at one place; expected a number there, too: hold the distance "
+                        "above 0, as by std::max(0.01, distance), before a division or a logarithm, or move one of "
+                        "the two in the world";
+  EXPECT_EQ(fault("logarithm", "0"), cell + "is infinite" + near);
+  EXPECT_EQ(fault("ratio", "0"), cell + "is NaN" + near);
+  EXPECT_EQ(fault("infinity", "2"), cell + "is infinite; expected a number: a value over 0 is none");
+  EXPECT_EQ(fault("logarithm", "2"), "no error");
+}
+
 TEST_F(CellKinds, CellsThatNobodyFillsAreFound) {
   Simulation sim = run(two_robots + "<toy.lazy name='l' at='2'/>\n");
   step(sim);

@@ -253,7 +253,8 @@ TEST_F(Claims, ClaimsThatMakeNoSense) {
   EXPECT_EQ(claim("to='robot/{robot}/x'"),
             "world.xml:4:1: r (toy.copy_radio): has no attribute \"robot\", which it needs");
   EXPECT_EQ(claim("to='robot/{times}/x'"),
-            "world.xml:4:1: r (toy.copy_radio): claims {times}, which is no reference among its parameters");
+            "world.xml:4:1: r (toy.copy_radio): claims {times}, which is no reference among its parameters; "
+            "expected {robot}");
   EXPECT_EQ(claim("to='link/3/level' columns='level[dBm]'"),
             "world.xml:4:1: r (toy.copy_radio): claims one row of \"link\", whose rows are listed anew each tick; "
             "expected *");

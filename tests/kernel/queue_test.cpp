@@ -93,9 +93,9 @@ TEST_F(Queues, OwnersSeeTheirOwn) {
 TEST_F(Queues, NobodySpeaksForAnother) {
   Simulation sim = run(two_robots + "<toy.send_control name='sa' robot='a' to='outbox/{robot}/message' as='1'/>\n");
   EXPECT_EQ(error_of([&] { sim.step(); }),
-            "3 world.xml:4:1: sa (toy.send_control): step failed at tick 1 (t = 0.5 s): outbox/0/message: radio is not "
-            "a, for which "
-            "alone it may speak");
+            "3 world.xml:4:1: sa (toy.send_control): step failed at tick 1 (t = 0.5 s): outbox/a/message: radio is 1, "
+            "which is b, but it speaks for a alone; expected \"radio\" to be left as send() and append() fill it in, "
+            "and whom it is for in \"to\" (null(): all)");
 }
 
 TEST_F(Queues, WritersOfSeveralPhasesAndAReaderAmongThem) {

@@ -77,8 +77,7 @@ TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
 // A whole file whose cells name rows that are not there: plugins count with them.
 TEST_F(Snapshots, ReferencesToNoRowAreRefusedAndTheRunStands) {
   const std::string elements =
-      two_robots +
-      "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' size='20'/>\n";
+      two_robots + "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' size='20'/>\n";
   Simulation sim = run(elements);
   step(sim, 3);
   const uint64_t before = sim.digest();

@@ -18,7 +18,11 @@ TEST(Json, HasNoNumberThatIsNotFinite) {
 }
 
 TEST(Json, BytesThatAreNoUtf8AreReplaced) {
-  EXPECT_EQ(Json(std::string("a\xff" "b")).dump(), "\"a\xef\xbf\xbd" "b\"");
+  EXPECT_EQ(Json(std::string("a\xff"
+                             "b"))
+                .dump(),
+            "\"a\xef\xbf\xbd"
+            "b\"");
 }
 
 TEST(Json, TakesAListOfNamedValuesForAnObject) {

@@ -60,6 +60,25 @@ TEST(FirstHour, TwoBackendsOfPhysics) {
                  "works for all");
 }
 
+// The steering of a car, beside a driver that needs none.
+TEST(FirstHour, TheExecutorOfAProgramThatIsNotThere) {
+  const std::string car = "<robot name=\"car\" model=\"f1tenth\" at=\"0 0 0\"/>\n<physics.simbody/>\n";
+  const std::string steady = "<control.steady name=\"steer\" robot=\"car\" v=\"1\" w=\"0\"/>\n";
+  const std::string other = "<control.car robot=\"car\" wheel_base=\"0.33\" max_steering=\"0.4\"/>\n";
+  const std::string why =
+      "; expected no control.car: it executes the \"robot/car/car_command\" of a program, which nobody writes here, "
+      "and "
+      "control.steady drives the robot by itself";
+  expect_refused(car + steady + other,
+                 "world.xml:5:1: control.car (control.car): writes \"robot/car/command\"; so does world.xml:4:1: steer "
+                 "(control.steady)" +
+                     why);
+  expect_refused(car + other + steady,
+                 "world.xml:5:1: steer (control.steady): writes \"robot/car/command\"; so does world.xml:4:1: "
+                 "control.car (control.car)" +
+                     why);
+}
+
 TEST(FirstHour, TwoNetworks) {
   expect_refused(base + channel + "<network.ideal/>\n<network.wifi/>\n" + beacon,
                  "world.xml:5:1: network.wifi (network.wifi): writes \"radio/*/traffic\"; so does world.xml:4:1: "

@@ -179,7 +179,8 @@ TEST(Simbody, BadModelIsRefusedWithItsLine) {
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::invalid_input);
-    EXPECT_THAT(std::string(error.what()), testing::HasSubstr(urdf + ":2: link 'l': mass is not above 0"));
+    EXPECT_THAT(std::string(error.what()),
+                testing::HasSubstr(urdf + ":2: link 'l': <mass value=\"-1\"/>; expected the mass in kg, above 0"));
   }
 }
 

@@ -94,8 +94,11 @@ TEST_P(EachNetwork, Row19ASenderCannotSpeakForAnother) {
     run(sim, 2);
     FAIL() << "forged";
   } catch (const Error& refused) {
-    EXPECT_THAT(refused.what(),
-                testing::HasSubstr("outbox/0/message: radio is not forger, for which alone it may speak"));
+    EXPECT_THAT(
+        refused.what(),
+        testing::HasSubstr("outbox/forger/message: radio is 0, which is honest, but it speaks for forger alone; "
+                           "expected \"radio\" to be left as send() and append() fill it in, and whom it is "
+                           "for in \"to\""));
   }
 }
 

@@ -139,6 +139,21 @@ TEST(Range, RefusesAPeerThatIsNoRadio) {
             std::string::npos);
 }
 
+TEST(Range, RefusesASecondBiasOfAPair) {
+  const auto biased = [](const std::string& rows) {
+    return refusal([&] {
+      measured(anchors + plain + "<sensors.range biases=\"b.csv\"/>", 1, {{"b.csv", "a,b,bias[m]\n" + rows}});
+    });
+  };
+  const std::string one = "; expected one row a pair: its bias counts both ways";
+  EXPECT_NE(biased("a,r,0.2\nb,r,0.1\nr,a,-0.1\n")
+                .find("b.csv:4:1: the pair of r and a has a bias in line 2 already, in the other order" + one),
+            std::string::npos);
+  EXPECT_NE(biased("a,r,0.2\na,r,0.2\n").find("b.csv:3:1: the pair of a and r has a bias in line 2 already" + one),
+            std::string::npos);
+  EXPECT_EQ(biased("a,r,0.2\na,s,0.2\n"), "nothing refused it");
+}
+
 TEST(Range, IsTheSameRun) {
   Folder folder;
   expect_one_run(

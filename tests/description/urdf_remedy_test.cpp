@@ -1,0 +1,62 @@
+// What a refusal of a URDF says to write, where that follows from other figures of the file.
+#include <gtest/gtest.h>
+
+#include "description/robot.hpp"
+#include "files.hpp"
+
+namespace muster::description {
+namespace {
+
+std::string refusal_of(const std::string& elements) {
+  Files files;
+  const std::string path = files.write("r.urdf", "<robot name='r'>\n" + elements + "</robot>\n");
+  try {
+    read_robot(path);
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    return message.rfind(path, 0) == 0 ? message.substr(path.size() + 1) : message;
+  }
+  return "no error";
+}
+
+const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
+std::string massive(const std::string& name) {
+  return "<link name='" + name + "'><inertial><mass value='1'/>" + inertia + "</link>\n";
+}
+
+// Two wheels on lines 6 and 8, and what may stand between them and the body.
+std::string wheels(const std::string& left, const std::string& mount = "0 0 0") {
+  const auto wheel = [&](const std::string& name, const std::string& y, const std::string& angles) {
+    return "<joint name='" + name + "_joint' type='continuous'><parent link='mount'/><child link='" + name +
+           "'/>\n<origin xyz='0 " + y + " 0' rpy='" + angles + "'/><axis xyz='0 0 1'/></joint>\n";
+  };
+  return massive("b") + massive("l") + massive("r") + wheel("l", "0.1", left) +
+         wheel("r", "-0.1", "-1.5707963267948966 0 0") +
+         "<link name='mount'/><joint name='m' type='fixed'><parent link='b'/><child link='mount'/><origin rpy='" +
+         mount +
+         "'/></joint>\n<muster><differential left='l_joint' right='r_joint' wheel_radius='0.05' wheel_base='0.2' "
+         "max_torque='1' max_speed='9' friction='0.8'/></muster>\n";
+}
+
+TEST(UrdfRemedy, ALinkWithoutMassHasThatOfItsShapes) {
+  const std::string box = "<collision><geometry><box size='0.3 0.2 0.1'/></geometry></collision></link>\n";
+  EXPECT_EQ(
+      refusal_of("<link name='a'>\n<inertial>\n<mass value='0'/>" + inertia + box),
+      "4: link 'a': <mass value=\"0\"/>; expected the mass in kg, above 0 (its collision shapes filled with water "
+      "weigh 6 kg), or no <inertial> if the link is a frame without mass");
+}
+
+TEST(UrdfRemedy, AnglesInDegreesAreToldBeforeTheAxisThatTheyGive) {
+  EXPECT_EQ(refusal_of(wheels("-1.5707963267948966 0 0")), "no error");
+  EXPECT_EQ(
+      refusal_of(wheels("-90 0 0")),
+      "6: joint 'l_joint': <origin> rpy=\"-90 0 0\": more than a full turn in radians; are these degrees? expected "
+      "rpy=\"-1.570796 0 0\"");
+  EXPECT_EQ(refusal_of(wheels("-1.5707963267948966 0 0", "0 0 15")),
+            "9: joint 'm': <origin> rpy=\"0 0 15\": more than a full turn in radians; are these degrees? expected "
+            "rpy=\"0 0 0.261799\"");
+  EXPECT_NE(refusal_of(wheels("-1.4 0 0")).find("does not turn about the body's +y axis"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace muster::description
