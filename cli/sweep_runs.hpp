@@ -41,7 +41,7 @@ class SweepRuns {
 
   World world_of(const std::vector<sweep::Word>& values);
   const std::vector<std::string>& instances_of(const World& world);
-  std::string where_exchanged(const std::vector<Word>& values, const std::string& path) const;
+  std::string where_exchanged(const std::vector<sweep::Word>& values, const std::string& path) const;
   std::unique_ptr<Simulation> make(std::size_t combination, std::int64_t seed);
   std::vector<TimedMetric> metrics_of(const Simulation& run) const;
 
