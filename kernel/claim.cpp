@@ -27,7 +27,7 @@ std::string expected_reference(const Instance& instance, const std::string& wron
     if (param.kind == MUSTER_REFERENCE) references.push_back('{' + std::string(param.name) + '}');
   }
   if (!references.empty()) return "; " + suggest('{' + wrong + '}', references);
-  return "; expected reference(\"" + wrong + "\", \"robot\", \"...\") there, or the name of another set than robot";
+  return "; expected one there, as reference(\"" + wrong + "\", \"robot\", \"...\")";
 }
 
 // "{robot}" becomes the name of the row that the parameter `robot` refers to.
