@@ -39,6 +39,14 @@ RunRecord::RunRecord(const Simulation& run, const std::vector<RecordDeclaration>
   }
 }
 
+void RunRecord::write(const Simulation& run) {
+  recorder_.write(run);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - flushed_ < std::chrono::seconds(1)) return;
+  recorder_.flush();
+  flushed_ = now;
+}
+
 std::vector<viewer::RecordedTable> RunRecord::listed(const Simulation& run) const {
   std::vector<viewer::RecordedTable> result;
   for (const auto& file : recorder_.files()) {

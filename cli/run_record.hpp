@@ -1,6 +1,7 @@
 // The record of a run: its tables, run.json beside them, and the page that shows both.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ class RunRecord {
             const Library::SearchPath& plugins);
 
   // Call before the first tick and after each.
-  void write(const Simulation& run) { recorder_.write(run); }
+  // What was recorded is on the disk a second later, so that a run which is killed leaves it.
+  void write(const Simulation& run);
   // What was recorded up to now, or all of it after close(), for a page that is shown during the run.
   viewer::RecordFolder so_far(const Simulation& run, Json outcome);
   // The tables and run.json, in which `outcome` is what is known of the run; the files written.
@@ -35,6 +37,7 @@ class RunRecord {
 
   std::filesystem::path folder_;
   FolderLock lock_;
+  std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
   Recorder recorder_;
   viewer::RunScene scene_;
   std::vector<std::filesystem::path> tables_;

@@ -39,6 +39,24 @@ TEST_P(Interrupt, EndsTheRunWithWholeRecords) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/instance_good_cell.csv.part"));
 }
 
+// Killed at once, a run of more than a second leaves what it had recorded.
+TEST(Output, OfAKilledRunIsThereUpToTheLastSecond) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  Surroundings around;
+  around.meanwhile = [](int process) {
+    ::usleep(2'500'000);
+    ::kill(process, SIGKILL);
+  };
+  // A hundred rows a second: far less than a file's buffer.
+  const std::vector<std::string> words = {
+      "run",      "world.xml",          "--plugins",      toys, "--until",     "1000",    "--out", "out",
+      "--record", "instance/good/cell", "--digest-every", "10", "--real-time", "--speed", "10"};
+  EXPECT_EQ(folder.muster(words, around).exit, 128 + SIGKILL);
+  const std::string log = folder.read("out/instance_good_cell.csv.part");
+  EXPECT_GT(std::count(log.begin(), log.end(), '\n'), 20);
+}
+
 TEST(Output, ThatCannotBeWrittenIsAnErrorOfIts) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
