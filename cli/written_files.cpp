@@ -57,7 +57,8 @@ void WrittenFiles::writes(const fs::path& file, const std::string& option) {
   for (const auto& [other, as] : written_)
     if (same(file, other)) refuse("written by this command already (" + as + ")");
   written_.emplace_back(file, option);
-  if (!fs::is_regular_file(file, none)) return;  // nothing is there to be read, or it is no file, such as /dev/null
+  if (!fs::exists(file, none)) return;
+  if (!fs::is_regular_file(file, none)) refuse("a device or a pipe, which a file would take the place of");
   for (const auto& [other, as] : read_)
     if (same(file, other)) refuse("read by this command (" + as + ")");
   for (const fs::path& world : worlds_)

@@ -65,6 +65,9 @@ TEST_F(WrittenFiles, AreOneFileForOneOption) {
 
 TEST_F(WrittenFiles, AreNoFoldersAndFoldersAreNoFiles) {
   std::filesystem::create_directory(folder.path() / "out");
+  refused(
+      {"run", "world.xml", "--mcap", "/dev/null"},
+      "--mcap: /dev/null is a device or a pipe, which a file would take the place of; expected another file to write");
   refused({"run", "world.xml", "--save", "out"}, "--save: out is a folder; expected another file to write");
   refused({"run", "world.xml", "--out", "data.csv"}, "--out: data.csv is a file; expected a folder");
   refused({"fit", "world.xml", "--data", "data.csv", "--out", "data.csv"},
