@@ -57,7 +57,7 @@ class Json {
   double real() const;
   const std::string& text() const;
 
-  // On one line, or with so many spaces at each level. Throws where text is not UTF-8.
+  // On one line, or with so many spaces at each level. Bytes that are no UTF-8 become U+FFFD.
   std::string dump(int indent = -1) const;
 
  private:
