@@ -250,8 +250,9 @@ std::optional<rm::Route> wanted_way(const World& world, const PlannedRobot& robo
   if (way.fault.empty()) return way;
   const bool is_large = made.obstacles.radius() > largest;
   const std::string large = is_large ? "; is the radius in millimetres? expected metres" : "";
-  if (!words.path.empty()) throw Error(Exit::invalid_input, "--to: " + way.fault + large);
-  warnings.push_back("--to: " + way.fault);
+  const std::string option = way.fault.starts_with("the start ") ? (words.from.empty() ? "" : "--from: ") : "--to: ";
+  if (!words.path.empty()) throw Error(Exit::invalid_input, option + way.fault + large);
+  warnings.push_back(option + way.fault);
   return {};
 }
 

@@ -122,6 +122,14 @@ std::string find_model(const std::string& model, const std::vector<std::string>&
     if (fs::exists(path, ignored)) return path.string();
     tried += (tried.empty() ? "" : ", ") + directory;
   }
+  for (const std::string& directory : directories) {
+    std::error_code ignored;
+    if (!is_path && fs::is_regular_file(fs::path(directory) / model, ignored))
+      throw std::runtime_error(model +
+                               " is no name of a robot's file; expected one that ends in .urdf, or in .xml for a "
+                               "MuJoCo model (MJCF): \"" +
+                               fs::path(model).stem().string() + ".xml\"");
+  }
   if (!is_path)
     throw std::runtime_error("there is no model \"" + model + "\"" + suggestion(model, models_in(directories)));
   throw std::runtime_error("there is no file " + file + " in " + (tried.empty() ? "any folder" : tried) +

@@ -313,6 +313,26 @@ void check_moving_masses(const Source& source, const Outline& outline, const Rob
   }
 }
 
+// A body that has a shape and weighs nothing: its links, but for wheels and limbs, have no <inertial> among them.
+void warn_of_weightless_body(const Source& source, const Outline& outline, Robot& robot) {
+  const bool has_mass =
+      std::any_of(robot.links.begin(), robot.links.end(), [](const Link& l) { return l.mass.mass > 0; });
+  if (!has_mass || rigid_mass(robot, 0).mass > 0) return;  // nothing has a mass: a robot to look at
+  std::vector<bool> is_body(robot.links.size(), false);
+  is_body[0] = true;
+  for (const Joint& joint : robot.joints)
+    is_body[joint.child] = joint.kind == JointKind::fixed && is_body[joint.parent];
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const Link& link = robot.links[i];
+    if (!is_body[i] || link.shapes.empty()) continue;
+    robot.warnings.push_back(source.file + ":" + std::to_string(outline.link_lines.at(link.name)) + ": link '" +
+                             link.name +
+                             "' has a collision shape and no <inertial>, so that the robot's body weighs nothing; " +
+                             expected_mass(link.shapes));
+    return;
+  }
+}
+
 urdf::ModelInterfaceSharedPtr parse(const Source& source, const std::string& text) {
   const Listener listener;
   auto model = urdf::parseURDF(text);
@@ -362,6 +382,7 @@ Robot read_robot(const std::string& path, Meshes meshes, const UrdfSetting& sett
   Robot robot =
       is_mjcf ? read_mjcf(source, root, meshes, outline) : from_urdf(source, root, text, meshes, setting, outline);
   check_moving_masses(source, outline, robot);
+  warn_of_weightless_body(source, outline, robot);
   snap_axes(source, outline, robot);
   if (!setting.fittings.empty()) {
     parse_urdf(fittings, read_file(setting.fittings, max_file), more);

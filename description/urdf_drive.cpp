@@ -21,6 +21,12 @@ std::size_t find_named(const Source& source, const XMLElement& element, const ch
     if (robot.joints[i].name == name) return i;
     names.push_back(robot.joints[i].name);
   }
+  const auto of_link = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                    [&](const Joint& joint) { return robot.links.at(joint.child).name == name; });
+  if (of_link != robot.joints.end())
+    source.fail(element.GetLineNum(), tag(element) + attribute + ": '" + name +
+                                          "' is a link, and a joint is meant; expected " + attribute + "=\"" +
+                                          of_link->name + "\", the joint that holds it");
   source.fail(element.GetLineNum(),
               tag(element) + attribute + ": joint '" + name + "' is not known" + nearest(name, names));
 }

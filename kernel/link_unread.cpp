@@ -37,6 +37,12 @@ bool Linker::is_for_others(const Claimed::By& writer) const {
 
 namespace {
 
+// ` robot="rover"` of a controller that is to read that row.
+std::string of_row(const TableName& name, const std::string& reader) {
+  if (!reader.starts_with("control.") || name.row.empty() || name.row == "*") return "";
+  return ' ' + name.set + "=\"" + name.row + '"';
+}
+
 // Quantities of radios that plugins of networks read, and which do.
 struct OfNetworks {
   const char *quantity, *readers;
@@ -99,7 +105,8 @@ std::vector<std::string> Linker::unread() const {
       }
       result.push_back(by.instance->title() + ": writes " + quote(by.get().name.text()) + ", which " +
                        (unheard.empty() ? "nobody reads" : unheard) +
-                       (standard && *standard->user ? "; expected <" + std::string(standard->user) + "/> in the world"
+                       (standard && *standard->user ? "; expected <" + std::string(standard->user) +
+                                                          of_row(by.get().name, standard->user) + "/> in the world"
                         : unheard.empty()
                             ? "; muster describe " + by.instance->declared().plugin + " says what it is for"
                             : ""));

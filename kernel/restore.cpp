@@ -80,6 +80,11 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
       refuse("it has the " + name + ' ' + quote(*theirs) + " where this one has " + quote(*ours) +
              "; expected the world that it was saved from");
     }
+    // Rows beyond those of here are copies that joined: one that is like itself is of a world file.
+    for (std::size_t i = common; i < saved.names.size() && i < saved.like.size(); ++i)
+      if (saved.like[i] == i && !may_join(name))
+        refuse("it has the " + name + ' ' + quote(saved.names[i]) +
+               ", which this one has not; expected the world that it was saved from");
     const bool whole =
         saved.alive.size() == saved.names.size() && saved.like.size() == saved.names.size() &&
         std::all_of(saved.like.begin(), saved.like.end(), [&](auto row) { return row < saved.like.size(); });

@@ -152,6 +152,7 @@ class Simulation {
   void rehearse(const RowChange& planned, const std::vector<Instance*>& there) const;
   void living(const std::string& set, const std::string& name) const;  // throws if it is not there
   bool is_claimed(const std::string& set) const;
+  bool may_join(const std::string& set) const;  // an instance lets rows of it join
   void drop_private_sets();
   template <class Change>
   void guarded(Change&& change);

@@ -152,6 +152,14 @@ bool Simulation::is_claimed(const std::string& set) const {
   });
 }
 
+bool Simulation::may_join(const std::string& set) const {
+  return std::any_of(instances_.begin(), instances_.end(), [&](const auto& instance) {
+    const auto& claims = instance->claims();
+    return std::any_of(claims.begin(), claims.end(),
+                       [&](const Claim& claim) { return claim.name.set == set && (claim.flags & MUSTER_JOINS); });
+  });
+}
+
 // Drops the private sets of instances that no longer exist, and sets on demand that nobody claims any more.
 void Simulation::drop_private_sets() {
   std::vector<std::string> unused;

@@ -11,6 +11,10 @@ namespace {
 
 // A table whose rows have names and stay: others have no courses.
 const Table& named_table(const Simulation& run, const std::string& name) {
+  if (name.starts_with("link/"))
+    throw Error(Exit::invalid_input, "--table: " + quote(name) +
+                                         " is of links: radio readings are fitted without --table, "
+                                         "as muster fit WORLD --data FILE");
   const TableView view = run.table(name);  // throws with the nearest name
   if (view.row >= 0 || !view.table->set().is_named())
     throw Error(Exit::invalid_input, "--table: " + quote(name) + " is " +

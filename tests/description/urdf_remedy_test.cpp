@@ -46,6 +46,39 @@ TEST(UrdfRemedy, ALinkWithoutMassHasThatOfItsShapes) {
       "weigh 6 kg), or no <inertial> if the link is a frame without mass");
 }
 
+// A link with a shape and no mass is a frame, and as a body it is most likely forgotten; a link below it may hold the
+// mass.
+TEST(UrdfRemedy, ABodyThatWeighsNothingIsTold) {
+  const std::string box = "<collision><geometry><box size='0.3 0.2 0.1'/></geometry></collision></link>\n";
+  const std::string wheel =
+      massive("w") +
+      "<joint name='j' type='continuous'><parent link='a'/><child link='w'/><axis xyz='0 1 0'/></joint>\n";
+  const auto warnings = [&](const std::string& elements) {
+    Files files;
+    std::string all;
+    for (const auto& one : read_robot(files.write("r.urdf", "<robot name='r'>\n" + elements + "</robot>\n")).warnings)
+      all += one.substr(one.find("r.urdf:")) + '\n';
+    return all;
+  };
+  EXPECT_NE(
+      warnings("<link name='a'>" + box + wheel)
+          .find("r.urdf:2: link 'a' has a collision shape and no <inertial>, so that the robot's body weighs nothing; "
+                "expected the mass in kg, above 0 (its collision shapes filled with water weigh 6 kg)"),
+      std::string::npos);
+  const std::string held = massive("m") + "<joint name='f' type='fixed'><parent link='a'/><child link='m'/></joint>\n";
+  EXPECT_EQ(warnings("<link name='a'>" + box + wheel + held).find("weighs nothing"), std::string::npos);
+}
+
+TEST(UrdfRemedy, ALinkIsNoJoint) {
+  std::string elements = wheels("-1.5707963267948966 0 0");
+  elements.replace(elements.find("left='l_joint'"), 14, "left='l'");
+  EXPECT_NE(
+      refusal_of(elements).find("left: 'l' is a link, and a joint is meant; expected left=\"l_joint\", the joint that "
+                                "holds it"),
+      std::string::npos)
+      << refusal_of(elements);
+}
+
 TEST(UrdfRemedy, AnglesInDegreesAreToldBeforeTheAxisThatTheyGive) {
   EXPECT_EQ(refusal_of(wheels("-1.5707963267948966 0 0")), "no error");
   EXPECT_EQ(

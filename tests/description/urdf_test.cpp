@@ -365,6 +365,15 @@ TEST(Model, AFileOfTheWorldComesBeforeABuiltInModel) {
   EXPECT_EQ(doubt_of_model("husky", {plugins, plugins + "/models"}), "");
 }
 
+TEST(Model, AFileWithAnotherEndingIsToldWhichThereAre) {
+  Files files;
+  files.write("bot.mjcf", "<mujoco/>");
+  EXPECT_EQ(
+      message_of([&] { find_model("bot.mjcf", {files.at("")}); }),
+      "bot.mjcf is no name of a robot's file; expected one that ends in .urdf, or in .xml for a MuJoCo model (MJCF): "
+      "\"bot.xml\"");
+}
+
 TEST(Model, AbsentOneIsNamedWithItsNearest) {
   Files files;
   files.write("scarab.urdf", "");

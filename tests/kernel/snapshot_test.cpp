@@ -74,6 +74,17 @@ TEST_F(Snapshots, OfAnotherWorldAreRefusedAndTheRunStands) {
             of + "its instance \"n\" is a toy.copy_sense/1; here it is a toy.copy_physics/1");
 }
 
+// Of a world with one robot more, which no plugin of this one has let join.
+TEST_F(Snapshots, ARowBeyondThoseOfTheWorldIsRefused) {
+  Simulation larger = run(two_robots + "<robot name='c' at='1 0 0'/>"), sim = run(two_robots);
+  step(larger, 3);
+  step(sim, 2);
+  const uint64_t before = sim.digest();
+  EXPECT_THAT(error_of([&] { sim.restore(larger.snapshot()); }),
+              HasSubstr("\"c\", which this one has not; expected the world that it was saved from"));
+  EXPECT_EQ(sim.digest(), before);
+}
+
 // A whole file whose cells name rows that are not there: plugins count with them.
 TEST_F(Snapshots, ReferencesToNoRowAreRefusedAndTheRunStands) {
   const std::string elements =

@@ -163,6 +163,11 @@ TEST(NoiseFit, ErrorsThatFollowOneAnotherAreTold) {
 TEST(NoiseFit, SaysWhyThereIsNothingToFit) {
   const Folder folder;
   drive(folder, 9, "0.01");
+  EXPECT_THAT(fault([&] {
+                diagnosis::fit_noise(world_in(folder, "given.xml", replayed), running(), "link/*/rssi",
+                                     folder / "odometry.csv", {});
+              }),
+              HasSubstr("radio readings are fitted without --table"));
   EXPECT_THAT(
       fault([&] { fitted_odometry(folder, "  <physics.planar/><robots.drive/><robots.odometry/><control.wander/>"); }),
       HasSubstr("is drawn anew by each seed"));
