@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "kernel/snapshot.hpp"
 #include "tests/cli/errors/program.hpp"
 
 namespace muster::test {
@@ -39,6 +40,9 @@ int killed_and_resumed(std::mt19937& random, int times) {
                                          around);
     if (killed.exit != 128 + SIGKILL || !std::filesystem::exists(folder / "state")) continue;
     ++resumed;
+    // What it printed last is of a tick that it had done: the state is of half a second before that, or later.
+    const auto digest = killed.out.rfind('\n', killed.out.rfind('\n') - 1) + 1;
+    EXPECT_GE(Snapshot::load(folder / "state").tick + 25, std::stoull(killed.out.substr(digest)));
     EXPECT_EQ(end_of(folder.muster({"run", logged, "--until", until, "--restore", "state"})), straight);
     if (!std::filesystem::exists(folder / "run.mcap.part")) continue;
     const Outcome recovered = folder.muster({"log", "recover", "run.mcap.part", "-o", "recovered.mcap"});
