@@ -4,6 +4,7 @@
 #include <cctype>
 #include <muster/row_types.hpp>
 
+#include "file_table.hpp"
 #include "text/names.hpp"
 #include "text/paths.hpp"
 #include "text/text_table.hpp"
@@ -235,102 +236,6 @@ void check_blindness(const Claim& claim, const Instance& instance, const Surroun
   if (robot >= 0 && claim.name.row != own)
     throw instance.refused(what + ", but it is bound to the robot " + quote(own) + "; expected that robot's own row, " +
                            own_row_of(claim) + " in its source");
-}
-
-namespace {
-
-// `, which is a wall` of a name that a table gives for something else.
-std::string of_other_set(const Blackboard& board, const Set& wanted, const std::string& name) {
-  for (const auto& [set, rows] : board.sets()) {
-    if (rows.get() != &wanted && set.find('/') == set.npos && rows->is_named() && rows->find(name) >= 0)
-      return ", which is a " + set;
-  }
-  return "";
-}
-
-std::vector<double> row_numbers(const TextTable& table, std::size_t at, const Column& column, const Blackboard& board) {
-  Set& set = *board.find_set(column.reference);
-  const auto names = table.texts(at, {column.nullable, false});
-  std::vector<double> of_level;
-  for (std::size_t level = 0; level < names.levels.size(); ++level) {
-    const std::string& name = names.levels[level];
-    if (name.empty() && column.nullable) {
-      of_level.push_back(null());
-      continue;
-    }
-    if (column.joins) set.add(name);
-    const int row = set.find(name);
-    if (row < 0) {
-      const auto first = std::find(names.level.begin(), names.level.end(), level) - names.level.begin();
-      throw invalid(table.place(static_cast<std::size_t>(first), at), "no " + set.name + " is called " + quote(name) +
-                                                                          of_other_set(board, set, name) + "; " +
-                                                                          suggest(name, set.names));
-    }
-    of_level.push_back(row);
-  }
-  std::vector<double> result(names.level.size());
-  for (std::size_t r = 0; r < result.size(); ++r) result[r] = of_level[names.level[r]];
-  return result;
-}
-
-// What a table is that has these columns beside those that it should have; "" where it is nothing known.
-std::string of_another_kind(const TextTable& table, const std::vector<std::string>& known) {
-  const auto has = [&](const char* name) { return table.find(name).has_value(); };
-  const auto takes = [&](const char* name) { return std::find(known.begin(), known.end(), name) != known.end(); };
-  const bool is_of_places = takes("x") && takes("y");
-  if (is_of_places && has("x0") && has("y0") && has("x1") && has("y1"))
-    return "this is a roadmap, pieces from x0, y0 to x1, y1, and no list of places; expected x[m],y[m], as `muster "
-           "roadmap "
-           "--path` writes a way on it, or <control.navigate>, which takes the roadmap";
-  if (is_of_places && has("x") && has("y") && !takes("t") && has("t")) {
-    std::string all;
-    for (const std::string& each : known) all += (all.empty() ? "" : ", ") + each;
-    return "these places have no times, which follow from the speed; expected " + all +
-           " without t (poses over time carry a robot by physics.replay)";
-  }
-  return "";
-}
-
-// Refuses columns that no plugin reads, so that none is ignored silently.
-void refuse_others(const TextTable& table, const Columns& columns) {
-  std::vector<std::string> known;
-  for (const auto& column : columns) known.push_back(column.name);
-  for (std::size_t c = 0; c < table.columns().size(); ++c) {
-    const auto& name = table.columns()[c].name;
-    if (columns.find(name) >= 0) continue;
-    const std::string other = of_another_kind(table, known);
-    throw invalid(table.header_place(c),
-                  "column " + quote(name) + " means nothing here; " + (other.empty() ? suggest(name, known) : other));
-  }
-}
-
-}  // namespace
-
-std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
-                                       Blackboard& board, TableCache& tables) {
-  const std::shared_ptr<const TextTable> read = tables.read(path);
-  const TextTable& table = *read;
-  if (closed) refuse_others(table, columns);
-  auto cells = std::make_unique<Cells>();
-  cells->rows = table.rows();
-  cells->data.resize(cells->rows * columns.size());
-  std::vector<TextColumn> needed;
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (!columns[c].nullable) needed.push_back({columns[c].name, columns[c].unit});
-  }
-  table.require_most(needed);
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    const auto& column = columns[c];
-    std::vector<double> values(cells->rows, null());
-    if (!column.nullable || table.find(column.name)) {
-      const auto at = table.require(column.name, column.unit);
-      values = column.reference.empty() ? table.reals(at, {column.nullable, column.infinite})
-                                        : row_numbers(table, at, column, board);
-    }
-    for (std::size_t r = 0; r < values.size(); ++r)
-      cells->data[r * columns.size() + c] = std::isnan(values[r]) ? null() : values[r];
-  }
-  return cells;
 }
 
 namespace {

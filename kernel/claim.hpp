@@ -27,9 +27,4 @@ const SetDeclaration* standard_set(const Standard& standard, const std::string& 
 // Restricts a robot's controller to its own sensed rows, inbox and outbox. Throws Error for anything else.
 void check_blindness(const Claim& claim, const Instance& instance, const Surroundings& around);
 
-// A file's cells, names turned into row numbers; where `closed`, it must have no other columns. Throws Error with line
-// and column of the file.
-std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
-                                       Blackboard& board, TableCache& tables);
-
 }  // namespace muster

@@ -1,0 +1,17 @@
+// Tables of files that plugins claim: cells for the blackboard, or what the file is instead.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "blackboard.hpp"
+#include "text/table_cache.hpp"
+
+namespace muster {
+
+// A file's cells, names turned into row numbers; where `closed`, it must have no other columns. Throws Error with line
+// and column of the file.
+std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
+                                       Blackboard& board, TableCache& tables);
+
+}  // namespace muster
