@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "idle_doubts.hpp"
+#include "isolated_instances.hpp"
 #include "level_terms.hpp"
 #include "live_view.hpp"
 #include "pacing.hpp"
@@ -34,7 +35,8 @@ struct RunWords : RunOptions {
   std::string world, save, restore;
   uint64_t digest_every = 0;
   bool watch = false, expected = false, real_time = false, cost = false;
-  std::optional<std::string> speed, save_every;
+  std::optional<std::string> speed, save_every, isolate_limit;
+  std::vector<std::string> isolate;
   bool view = false;
   ViewSettings view_at;
   PluginChange swap;  // of the verb swap
@@ -53,6 +55,14 @@ void declare(CommandLine& line, RunWords& words) {
   line.option("--restore", words.restore,
               "begin from a state that --save wrote; a --seed beside it counts from there on");
   line.option("--digest-every", words.digest_every, "print the digest every so many ticks").at_least(1);
+  line.option(
+          "--isolate", words.isolate,
+          "INSTANCE, INSTANCE=stop, =restart or =without: it steps in a process of its own, and where that ends, the "
+          "run stops, the step is taken again, or the run goes on without it; \"all\": every instance")
+      .one_word_each();
+  line.option("--isolate-limit", words.isolate_limit,
+              "with --isolate: seconds after which a step that has not returned is ended; 30 if not given");
+  line.only_with("--isolate-limit", "--isolate");
   line.flag("--cost", words.cost, "print the CPU time of each plugin, and of a link in those of the radio");
   line.flag("--watch", words.watch, "load a plugin again when its file changes on disk");
   line.flag("--real-time", words.real_time, "at the pace of the clock: a second of the run takes a second");
@@ -241,6 +251,8 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   const SavedRun saved(words.save, words.save_every, world.dt);
   Options options{plugin_path(words.plugins), words.workers, {}};
   options.costs = words.cost;
+  options.isolated = isolations_of(words.isolate, words.isolate_limit);
+  const Isolations isolated = options.isolated;
   Simulation run(world, standard(), std::move(options));
   check_records(run);
   for (const auto& doubts : {level_doubts(run), idle_doubts(run), way_doubts(run)})
@@ -342,8 +354,10 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   if (record && !unnamed) add_page(*record, words, files);
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
   if (!words.save.empty() && !view && !words.watch && !words.expected && !interrupted()) {
-    const std::string lost = loss_of_snapshot(run, world, {plugin_path(words.plugins), words.workers, {}},
-                                              std::clamp(took.count(), 1.0, longest_proof));
+    Options proof{plugin_path(words.plugins), words.workers, {}};
+    proof.isolated = isolated;
+    const std::string lost =
+        loss_of_snapshot(run, world, std::move(proof), std::clamp(took.count(), 1.0, longest_proof));
     if (!lost.empty()) fmt::print(stderr, "muster: warning: --save: {} {}\n", words.save, lost);
   }
   run.close();

@@ -40,7 +40,9 @@ class Line {
   std::size_t size_ = 0;
 };
 
-const char* name_of(int signal) {
+}  // namespace
+
+const char* words_of_signal(int signal) {
   switch (signal) {
     case SIGSEGV:
       return "a segmentation fault (SIGSEGV)";
@@ -50,12 +52,16 @@ const char* name_of(int signal) {
       return "an illegal instruction (SIGILL)";
     case SIGFPE:
       return "an arithmetic fault (SIGFPE)";
-    default:
+    case SIGABRT:
       return "an abort (SIGABRT)";
+    case SIGKILL:
+      return "a kill from outside (SIGKILL)";
+    case SIGTERM:
+      return "a request to end (SIGTERM)";
+    default:
+      return "a signal";
   }
 }
-
-}  // namespace
 
 RunningCallback::RunningCallback(const char* title, const char* callback, int64_t tick, double time, bool may_wait)
     : title_(title), callback_(callback), tick_(tick), time_(time), may_wait_(may_wait), outer_(running) {
@@ -79,7 +85,7 @@ void write_crash(int signal) {
     Line line;
     line << "muster: error: " << in->title_ << ": " << in->callback_ << " crashed";
     if (in->tick_ >= 0) line << " at tick " << in->tick_;
-    line << ": " << name_of(signal)
+    line << ": " << words_of_signal(signal)
          << " in the plugin; a debugger shows where, and the line of a plugin built with "
             "-D CMAKE_BUILD_TYPE=Debug: gdb -ex run --args muster ...\n";
     line.write();

@@ -25,6 +25,9 @@ class RunningCallback {
   const RunningCallback* outer_;
 };
 
+// "a segmentation fault (SIGSEGV)"
+const char* words_of_signal(int signal);
+
 // From now on a signal such as SIGSEGV in a plugin's code writes one line, "muster: error: TITLE: ...", to standard
 // error, and then ends the process as before. Signals that something else handles, such as a sanitizer, are left to it.
 void report_crashes();

@@ -1,6 +1,7 @@
 #include "instance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "crash_report.hpp"
@@ -9,6 +10,7 @@
 #include "instance_doubts.hpp"
 #include "loader/float_guard.hpp"
 #include "needed_attribute.hpp"
+#include "separate_process.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_file/kinds.hpp"
@@ -43,8 +45,28 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   title_ = title();
   may_wait_ = find_param("wait") >= 0;  // declared so: it says itself for whom it waits
   host_ = make_host(*this);
+  const auto& isolated = around_.isolated;
+  auto how = isolated.find(declared_.name);
+  if (how == isolated.end()) how = isolated.find("*");
+  if (how != isolated.end()) isolation_ = how->second;
+  create();
+  in_.resize(claims_.size());
+  out_.resize(claims_.size());
+}
+
+// How a process of its own ended in which the callback was tried; "" where it came back.
+template <class Callback>
+static std::string trial(const Isolation& how, const Callback& callback) {
+  return SeparateProcess(0, [&](std::byte*) { callback(); }).call(how.limit);
+}
+
+void Instance::create() {
   FloatGuard guard;
   in_create_ = true;
+  if (isolation_ && !may_wait_) {
+    const std::string ended = trial(*isolation_, [&] { plugin_->create(&host_); });
+    if (!ended.empty()) throw failure("create", nullptr, "its own process " + ended);
+  }
   self_ = guarded(nullptr, [&] {
     const RunningCallback running(title_.c_str(), "create", -1, 0, may_wait_);
     return plugin_->create(&host_);
@@ -56,13 +78,20 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
     if (self_) plugin_->destroy(self_);
     throw Error(error);
   }
-  in_.resize(claims_.size());
-  out_.resize(claims_.size());
 }
 
 Instance::~Instance() {
-  if (!self_) return;
+  there_.reset();
+  if (self_) destroy();
+}
+
+void Instance::destroy() {
   error_.clear();
+  if (isolation_ && !may_wait_) {
+    const std::string ended = trial(*isolation_, [&] { plugin_->destroy(self_); });
+    if (!ended.empty())
+      return around_.destroy_faults.push_back(failure("destroy", nullptr, "its own process " + ended).what());
+  }
   guarded(false, [&] {
     const RunningCallback running(title_.c_str(), "destroy", -1);
     return plugin_->destroy(self_), true;
@@ -142,6 +171,12 @@ void Instance::check_attributes() {
   check_together(*plugin_, params_, declared_, *around_.world, warn);
 }
 
+// The time of a tick to a fraction of it, without the digits that 3 * 0.1 has beyond 0.3.
+static std::string print_time(const muster_tick& tick, double dt) {
+  const double parts = std::pow(10, 3 - std::floor(std::log10(dt)));
+  return print_real(std::round(tick.time * parts) / parts);
+}
+
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);
   error_.clear();
@@ -149,7 +184,7 @@ Error Instance::failure(const std::string& callback, const muster_tick* tick, co
   // Of a fault of the user's in create() or in the first step it says nothing that it came then: it was wrong before.
   const bool is_early = fault == Exit::invalid_input && tick && tick->index <= 1;
   const std::string where =
-      tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_real(tick->time) + " s)" : "";
+      tick ? " at tick " + std::to_string(tick->index) + " (t = " + print_time(*tick, around_.world->dt) + " s)" : "";
   const std::string words = with_names(with_declared(in_one_line(said), *plugin_), *around_.board, *around_.world);
   // What is wrong in a file of the user's is told at its own place, whoever found it.
   const bool is_users = fault == Exit::invalid_input && (!tick || is_early);
@@ -219,6 +254,13 @@ void Instance::bind(uint64_t tick) {
 }
 
 bool Instance::step(const muster_tick& now) noexcept {
+  if (!there_) return step_here(now);
+  error_.clear();
+  const RunningCallback running(title_.c_str(), "step", static_cast<int64_t>(now.index), now.time, may_wait_);
+  return guarded(false, [&] { return there_->run(now); });
+}
+
+bool Instance::step_here(const muster_tick& now) noexcept {
   const double dt = around_.world->dt * static_cast<double>(every());
   const muster_tick tick{sizeof(muster_tick), now.flags, now.index, now.time, dt, params_.data()};
   error_.clear();  // of a step that was taken back

@@ -4,12 +4,14 @@
 #include <muster/plugin.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "blackboard.hpp"
 #include "callback_watch.hpp"
+#include "isolation.hpp"
 #include "loader/library.hpp"
 #include "text/table_cache.hpp"
 #include "thread_pool.hpp"
@@ -67,6 +69,7 @@ struct Surroundings {
   std::vector<std::string> destroy_faults;  // failures while instances were destroyed; a destructor cannot throw them
   ThreadPool* workers = nullptr;            // null: one thread
   std::shared_ptr<TableCache> tables{};     // of instances' files
+  Isolations isolated{};
 };
 
 struct Join {
@@ -84,6 +87,16 @@ struct Join {
 struct Leave {
   Set* set;
   uint32_t row;
+};
+
+// Where the steps of an instance run, if not where it was made.
+class Elsewhere {
+ public:
+  virtual ~Elsewhere() = default;
+  // As Instance::step(), after bind(). May throw.
+  virtual bool run(const muster_tick& now) = 0;
+  // The links between instances have changed, or the names of rows.
+  virtual void start_anew() = 0;
 };
 
 class Instance {
@@ -121,6 +134,12 @@ class Instance {
   void bind(uint64_t tick);
   // One call of step(); its error is kept in failure(). Never throws.
   bool step(const muster_tick& now) noexcept;
+  // Whether it is to step in a process of its own; null if not.
+  const Isolation* isolation() const { return isolation_ ? &*isolation_ : nullptr; }
+  void step_elsewhere(std::unique_ptr<Elsewhere> there) { there_ = std::move(there); }
+  void start_anew_elsewhere() {
+    if (there_) there_->start_anew();
+  }
   // CPU time of its steps, where the run asks for costs.
   struct Cost {
     uint64_t nanoseconds = 0, steps = 0;
@@ -140,10 +159,14 @@ class Instance {
 
  private:
   friend struct Host;
+  friend class IsolatedStep;
   // Calls a plugin written without plugin.hpp, whose exceptions nothing else catches.
   template <class Body>
   auto guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept;
   void check_attributes();
+  void create();
+  void destroy();
+  bool step_here(const muster_tick& now) noexcept;
   // Implementations of the host's claim() and file(); they throw Error where the host returns -1.
   int claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns);
   int file(const std::string& param, const std::string& columns);
@@ -174,6 +197,8 @@ class Instance {
   bool may_wait_ = false;
   bool in_create_ = false, in_step_ = false, direct_ = false;
   const Set* asked_ = nullptr;  // the set of its last query in this step
+  std::optional<Isolation> isolation_;
+  std::unique_ptr<Elsewhere> there_;  // null: it steps here
 };
 
 const char* phase_name(uint32_t phase);

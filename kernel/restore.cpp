@@ -188,7 +188,10 @@ void Simulation::put(const Snapshot& snapshot) {
     set.listed = saved.listed;
   }
   for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;
-  for (const auto& instance : instances_) instance->params() = snapshot.instances.at(instance->name()).params;
+  for (const auto& instance : instances_) {
+    instance->params() = snapshot.instances.at(instance->name()).params;
+    instance->start_anew_elsewhere();
+  }
   tick_ = planned_from_ = snapshot.tick;
   look_at_conditions();
 }

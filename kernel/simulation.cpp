@@ -8,6 +8,7 @@
 
 #include "carriers.hpp"
 #include "clip_doubts.hpp"
+#include "isolated_step.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
 #include "world_file/kinds.hpp"
@@ -32,6 +33,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   for (const auto& warning : world_.warnings)
     events_.push_back({0, "", "warning: " + warning.place.text() + ": " + warning.message});
   around_.tables = options_.tables ? options_.tables : std::make_shared<TableCache>();
+  around_.isolated = options_.isolated;
   for (const auto& library : options_.libraries) share(library);
   loader_ = std::make_unique<LibraryLoader>(options_.search_path);
   for (const auto& declaration : options_.more) instances_.push_back(make(declaration));
@@ -42,6 +44,7 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
   }
   add_providers();
   loader_.reset();
+  check_isolated();
   if (options_.workers > 1) workers_ = std::make_unique<ThreadPool>(options_.workers);
   around_.workers = workers_.get();
   relink();
@@ -60,6 +63,20 @@ Simulation::Simulation(World world, const Standard& standard, Options options)
 }
 
 Simulation::~Simulation() = default;
+
+// All named are instances, now or by what the world plans. Throws Error.
+void Simulation::check_isolated() const {
+  std::vector<std::string> names;
+  for (const auto& instance : instances_) names.push_back(instance->name());
+  for (const auto& occasion : world_.occasions)
+    for (const auto& change : occasion.plugins) names.push_back(change.instance);
+  for (const auto& [name, how] : options_.isolated) {
+    if (name != "*" && std::find(names.begin(), names.end(), name) == names.end())
+      throw Error(Exit::invalid_input, "no instance is called " + quote(name) + which_is(world_, name, "instance") +
+                                           "; " + suggest(name, names) +
+                                           plugin_hint(name, whose_plugin(world_.instances, name)));
+  }
+}
 
 std::string library_key(const InstanceDeclaration& declaration) {
   return declaration.plugin + (declaration.library ? ' ' + declaration.library->string() : "");
@@ -82,7 +99,9 @@ std::shared_ptr<Library> Simulation::load_library(const InstanceDeclaration& dec
 
 std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration) {
   auto library = library_of(declaration);
-  return std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
+  auto made = std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
+  if (made->isolation()) made->step_elsewhere(std::make_unique<IsolatedStep>(*made, around_));
+  return made;
 }
 
 namespace {
@@ -176,6 +195,7 @@ void Simulation::relink() {
   linker.promise(promised_);
   linker.check();
   batches_ = linker.build();
+  for (const auto& instance : instances_) instance->start_anew_elsewhere();
   for (const auto& table : linker.dropped())
     events_.push_back({tick_, "",
                        linker.is_given(table) ? "nobody reads " + table + " any more, which the world gives"

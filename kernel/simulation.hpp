@@ -24,6 +24,7 @@ struct Options {
   std::shared_ptr<TableCache> tables{};   // files that were read already; none: the simulation reads its own
   std::vector<std::shared_ptr<Library>> libraries{};  // shared from the start on, as by share()
   bool costs = false;                                 // measures Instance::cost; takes some 0.3 us a step
+  Isolations isolated{};                              // instances that step in processes of their own
 };
 
 struct Event {
@@ -122,6 +123,7 @@ class Simulation {
   std::shared_ptr<Library> library_of(const InstanceDeclaration& declaration);
   std::shared_ptr<Library> load_library(const InstanceDeclaration& declaration);
   void add_providers();
+  void check_isolated() const;
   std::string suggest_table(const std::string& name) const;
   std::string of_named_row(const std::string& path, const std::set<std::string>& tables) const;
   void relink();

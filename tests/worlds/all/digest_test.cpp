@@ -30,6 +30,14 @@ TEST_P(EveryWorld, IsTheSameForAnyNumberOfWorkers) {
   }
 }
 
+TEST_P(EveryWorld, IsTheSameWhereEachInstanceStepsInAProcessOfItsOwn) {
+  Simulation run = start(GetParam(), 1, {{"*", {}}});
+  run_until(run, run.world().ticks / 5);
+  Simulation plain = start(GetParam());
+  run_until(plain, plain.world().ticks / 5);
+  EXPECT_EQ(run.digest(), plain.digest());
+}
+
 TEST_P(EveryWorld, IsTheSameAfterSaveAndRestore) {
   const auto expected = plain_digest(GetParam());
   const ProgramFolder folder;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kernel/simulation.hpp"
@@ -34,10 +35,12 @@ inline std::filesystem::path place_of(const std::string& world) {
 // Long enough that each phase has run many times, and that the swap of hot_swap is among them.
 constexpr uint64_t most_ticks = 500;
 
-inline Simulation start(const std::string& name, int workers = 1) {
+inline Simulation start(const std::string& name, int workers = 1, Isolations isolated = {}) {
   World world = read_world(place_of(name), standard());
   world.ticks = std::min(world.ticks, most_ticks);
-  return {std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, workers, {}}};
+  Options options{{MUSTER_PLUGINS_DIR}, workers, {}};
+  options.isolated = std::move(isolated);
+  return {std::move(world), standard(), std::move(options)};
 }
 
 inline void run_until(Simulation& run, uint64_t tick) {
