@@ -16,7 +16,7 @@
 namespace muster::cli {
 namespace {
 
-struct Words {
+struct DiagnoseWords {
   std::string world, data, second, out, check;
   std::vector<std::string> plugins;
   bool json = false;
@@ -26,7 +26,7 @@ Error wrong(const std::string& what) {
   return {Exit::invalid_input, "muster diagnose: " + what + "; see muster diagnose --help"};
 }
 
-Words words_of(const Arguments& arguments) {
+DiagnoseWords diagnose_words(const Arguments& arguments) {
   CommandLine line(
       "diagnose",
       "Finds what a world gets wrong about measured readings, and names the cause where one on the plugin path "
@@ -38,7 +38,7 @@ Words words_of(const Arguments& arguments) {
       "without the second diagnosis. Exit code 1: --check fails; 130: interrupted.\n"
       "Example: muster diagnose worlds/hall --data worlds/hall/measured.csv --out build/hall_extended\n"
       "         muster diagnose --check build/hall_extended");
-  Words words;
+  DiagnoseWords words;
   line.option("world", words.world, "the world's folder or file");
   line.option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)");
   line.option("--out", words.out, "a folder for report.html, diagnosis.json, the extended world and its test");
@@ -64,7 +64,7 @@ Words words_of(const Arguments& arguments) {
   return words;
 }
 
-int check(const Words& words, const Library::SearchPath& path) {
+int check(const DiagnoseWords& words, const Library::SearchPath& path) {
   std::vector<report::Checked> all;
   {
     Progress progress("diagnose --check");
@@ -91,7 +91,7 @@ void keep_memory() {
 #endif
 }
 
-diagnosis::Diagnosis diagnosed(const Words& words, const Library::SearchPath& path) {
+diagnosis::Diagnosis diagnosed(const DiagnoseWords& words, const Library::SearchPath& path) {
   Progress progress("diagnose");
   const inference::Watch watch{[&](const std::string& now) { progress.at(now); }, interrupted};
   watch_interrupt();
@@ -115,7 +115,7 @@ diagnosis::Diagnosis diagnosed(const Words& words, const Library::SearchPath& pa
 }  // namespace
 
 int run_diagnose(const Arguments& arguments) {
-  const Words words = words_of(arguments);
+  const DiagnoseWords words = diagnose_words(arguments);
   const Library::SearchPath path = plugin_path(words.plugins);
   keep_memory();
   if (!words.check.empty()) return check(words, path);

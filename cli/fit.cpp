@@ -13,7 +13,7 @@
 namespace muster::cli {
 namespace {
 
-struct Words {
+struct FitWords {
   std::string world, data, table, out, average = "dB", log = "10";
   std::vector<std::string> free, fix, plugins;
   double cell = 0.25;
@@ -21,14 +21,14 @@ struct Words {
   bool json = false;
 };
 
-Words words_of(const Arguments& arguments) {
+FitWords fit_words(const Arguments& arguments) {
   CommandLine line(
       "fit",
       "Fits a world's free parameters to measured readings, with standard errors that allow for correlated residuals, "
       "and says\n"
       "where the fitted world misfits. Exit code 1: a parameter that was to be fitted is not identifiable.\n"
       "Example: muster fit worlds/hall --data worlds/hall/measured.csv --out build/fit");
-  Words words;
+  FitWords words;
   line.option("world", words.world, "the world's folder or file").required();
   line.option("--data", words.data, "measured readings, a CSV table (docs/reference/table_format.md)").required();
   line.option("--table", words.table,
@@ -57,7 +57,7 @@ char first_of(const std::string& path) {
   return file >> first ? first : '\0';
 }
 
-void refuse_exchanged(const Words& words) {
+void refuse_exchanged(const FitWords& words) {
   if (std::filesystem::exists(std::filesystem::path(words.data) / "world.xml"))
     throw Error(Exit::invalid_input, "muster fit: --data " + words.data +
                                          " is the folder of a world; expected muster fit " + words.data +
@@ -105,7 +105,7 @@ void print_natural(const std::vector<NaturalExponent>& exponents) {
         n.path, n.value, n.lower95, n.upper95, n.reach, n.mistaken);
 }
 
-int fit_noise(const Words& words) {
+int fit_noise(const FitWords& words) {
   const World world = read_world(words.world, standard());
   Options options{plugin_path(words.plugins), 1, {}};
   const auto fit = diagnosis::fit_noise(world, options, words.table, words.data, {words.free, words.fix});
@@ -119,7 +119,7 @@ int fit_noise(const Words& words) {
 }  // namespace
 
 int run_fit(const Arguments& arguments) {
-  const Words words = words_of(arguments);
+  const FitWords words = fit_words(arguments);
   refuse_exchanged(words);
   if (!words.table.empty()) return fit_noise(words);
   Progress progress("fit");

@@ -20,43 +20,12 @@ namespace {
 using namespace muster;
 using namespace muster::cli;
 
-struct Verb {
-  const char* name;
-  int (*run)(const Arguments&);
-  const char* summary;
-};
-
-constexpr Verb verbs[] = {
-    {"run", run_run, "run a world"},
-    {"check", run_check, "read a world, load and link its plugins, and say what is wrong"},
-    {"swap", run_swap, "run a world and exchange an instance's plugin on the way"},
-    {"compare", run_compare, "run a world with instances exchanged, or several worlds, and say what differs"},
-    {"sweep", run_sweep, "run a plan of parameters, plugins, worlds and seeds, and say what came of it"},
-    {"bundle", run_bundle, "pack a run with all that it needs, and see whether another machine gets the same digest"},
-    {"graph", run_graph, "who reads and writes what, and the order of steps"},
-    {"plugins", run_plugins, "the plugins that can be loaded"},
-    {"plugin-check", run_plugin_check, "hide a cause in worlds of known truth, and see whether a diagnosis finds it"},
-    {"describe", run_describe, "the manual of a plugin or of an element, from its declarations"},
-    {"schema", run_schema, "an XML schema of world files for editors, from the declarations"},
-    {"fit", run_fit, "fit a world's free parameters to measured data, and say where it misfits"},
-    {"diagnose", run_diagnose, "find what a world gets wrong about measured data, name the cause and extend the world"},
-    {"exam", run_exam, "make sealed cases for a diagnosis, run it on them and grade what it says"},
-    {"report", run_report, "a recorded run as one page: scene, time and plots, without a network"},
-    {"log", cli::run_log, "what an MCAP file of a run holds; recover, cut, or make a table of it"},
-    {"map", run_map, "the RSSI of a world's radios over its floor"},
-    {"roadmap", run_roadmap, "where a robot can drive on a world's plan, and the shortest way"},
-    {"probe", run_probe, "a link's budget, line by line, and why nothing is received"},
-    {"features", run_features, "distance, walls and angles of each measured reading"},
-    {"import", run_import, "bring a foreign file into the format of measured data"},
-    {"new", run_new, "begin a plugin or a world of your own, in a folder outside the tree"},
-};
-
 constexpr const char* summary =
     "simulates teams of robots that move, sense and talk by radio, and holds them against measurements";
 
 void print_usage(std::FILE* to) {
   fmt::print(to, "muster VERB ...: {}\n\n", summary);
-  for (const auto& verb : verbs) fmt::print(to, "  {:<10} {}\n", verb.name, verb.summary);
+  for (const auto& verb : verbs()) fmt::print(to, "  {:<10} {}\n", verb.name, verb.summary);
   fmt::print(to,
              "\nmuster VERB --help says more.  Example: muster run worlds/connectivity --json\n"
              "muster --man prints all of it as a page for man, muster --completion bash what bash completes.\n");
@@ -64,9 +33,8 @@ void print_usage(std::FILE* to) {
 
 std::vector<DeclaredVerb> declared_verbs() {
   std::vector<DeclaredVerb> result;
-  for (const auto& verb : verbs) {
-    result.push_back(verb.run == run_exam ? declared_by_help(verb.name, "muster_exam", exam_help())
-                                          : declared(verb.run));
+  for (const auto& verb : verbs()) {
+    result.push_back(verb.help ? declared_by_help(verb.name, "muster_exam", verb.help()) : declared(verb.run));
     result.back().summary = verb.summary;
   }
   return result;
@@ -83,8 +51,8 @@ int print_completion(const Arguments& words) {
 // "run, swap, compare": the verbs that have an option which another has not.
 std::string verbs_with(const UnknownOption& e) {
   std::string with;
-  for (const auto& verb : verbs) {
-    if (verb.run == run_exam) continue;  // it declares its options elsewhere
+  for (const auto& verb : verbs()) {
+    if (verb.help) continue;  // it declares its options elsewhere
     for (const DeclaredOption& option : declared(verb.run).options) {
       if (std::find(option.names.begin(), option.names.end(), e.option) != option.names.end())
         with += (with.empty() ? "" : ", ") + std::string(verb.name);
@@ -131,7 +99,7 @@ int run(const Arguments& words) {
   if (words[0] == "--man") return fmt::print("{}", manual_page(declared_verbs(), summary, MUSTER_VERSION)), 0;
   if (words[0] == "--completion") return print_completion(words);
   std::vector<std::string> names;
-  for (const auto& verb : verbs) {
+  for (const auto& verb : verbs()) {
     names.emplace_back(verb.name);
     if (words[0] != verb.name) continue;
     try {

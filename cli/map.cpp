@@ -64,7 +64,7 @@ void check_area(const std::vector<double>& area) {
                                                  : ""));
 }
 
-MapWords words_of(const Arguments& arguments) {
+MapWords map_words(const Arguments& arguments) {
   CommandLine line(
       "map",
       "The RSSI of a world's radios over its floor: a table, and pictures. It is what the channel expects on average, "
@@ -267,7 +267,7 @@ pic::Range range_of(const std::vector<double>& map) {
 }  // namespace
 
 int run_map(const Arguments& arguments) {
-  const MapWords words = words_of(arguments);
+  const MapWords words = map_words(arguments);
   World world = read_world(words.world, standard());
   const uint64_t until = tick_in_run(world, words.at, "--at");
   Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});

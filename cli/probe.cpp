@@ -23,7 +23,7 @@ struct ProbeWords {
   bool expected = false, json = false;
 };
 
-ProbeWords words_of(const Arguments& arguments) {
+ProbeWords probe_words(const Arguments& arguments) {
   CommandLine line(
       "probe",
       "A link's budget at a moment of a run: each wall and floor on the way, each term of the channel, each stage of "
@@ -203,7 +203,7 @@ void print(const Json& b) {
 }  // namespace
 
 int run_probe(const Arguments& arguments) {
-  const ProbeWords words = words_of(arguments);
+  const ProbeWords words = probe_words(arguments);
   World world = read_world(words.world, standard());
   const uint64_t until = tick_in_run(world, words.at, "--at");
   Simulation run(std::move(world), standard(), {plugin_path(words.plugins), 1, {}});

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,16 @@ int run_swap(const Arguments& arguments);
 
 // The help of muster_exam, which declares its options by itself. Throws Error where it cannot be started.
 std::string exam_help();
+
+struct Verb {
+  const char* name;
+  int (*run)(const Arguments&);
+  const char* summary;
+  std::string (*help)() = nullptr;  // of a verb that declares its options elsewhere
+};
+
+// Those of this program: all_verbs.cpp or first_verbs.cpp.
+std::span<const Verb> verbs();
 
 // ---- What verbs share (common.cpp) ----
 

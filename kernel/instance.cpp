@@ -54,11 +54,15 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   out_.resize(claims_.size());
 }
 
+namespace {
+
 // How a process of its own ended in which the callback was tried; "" where it came back.
 template <class Callback>
-static std::string trial(const Isolation& how, const Callback& callback) {
+std::string trial(const Isolation& how, const Callback& callback) {
   return SeparateProcess(0, [&](std::byte*) { callback(); }).call(how.limit);
 }
+
+}  // namespace
 
 void Instance::create() {
   FloatGuard guard;
@@ -112,13 +116,17 @@ int Instance::bound_row() const {
   return refers ? static_cast<int>(params_[static_cast<std::size_t>(param)]) : -1;
 }
 
+namespace {
+
 // Of an attribute that names one row: a word for each of them.
-static bool means_all(const std::string& row) {
+bool means_all(const std::string& row) {
   for (const char* word : {"all", "any", "every", "everyone", "broadcast", "*"}) {
     if (row == word) return true;
   }
   return false;
 }
+
+}  // namespace
 
 void Instance::check_attributes() {
   std::vector<std::string> valid = reserved_attributes;
@@ -171,11 +179,15 @@ void Instance::check_attributes() {
   check_together(*plugin_, params_, declared_, *around_.world, warn);
 }
 
+namespace {
+
 // The time of a tick to a fraction of it, without the digits that 3 * 0.1 has beyond 0.3.
-static std::string print_time(const muster_tick& tick, double dt) {
+std::string print_time(const muster_tick& tick, double dt) {
   const double parts = std::pow(10, 3 - std::floor(std::log10(dt)));
   return print_real(std::round(tick.time * parts) / parts);
 }
+
+}  // namespace
 
 Error Instance::failure(const std::string& callback, const muster_tick* tick, const std::string& said) {
   const Exit fault = std::exchange(fault_, Exit::plugin_fault);

@@ -189,14 +189,18 @@ void TextTable::read_header() {
   }
 }
 
+namespace {
+
 // Of "rssi [dBm]": `; did you mean "rssi[dBm]"?`.
-static std::string without_space_before_unit(const std::string& label) {
+std::string without_space_before_unit(const std::string& label) {
   const auto open = label.find(" [");
   if (open == label.npos || label.back() != ']') return "";
   std::string meant = label;
   meant.erase(open, 1);
   return meant.find(' ') == meant.npos ? "; did you mean " + quote(meant) + "?" : "";
 }
+
+}  // namespace
 
 TextColumn TextTable::read_label(std::size_t column) const {
   const std::string label = cell_text(raw(0, column));

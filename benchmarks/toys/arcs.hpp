@@ -30,8 +30,9 @@ inline Rated rated(double begin, double end, double h) { return {begin, (end - b
 
 inline Arc arc(int robot) {
   constexpr int row = 8;
-  return {apart * (robot % row), apart * (robot / row), 6.283185307179586 * std::fmod(0.618034 * robot, 1.0),
-          0.3 + 0.02 * (robot % 11), (robot % 2 ? 1 : -1) * (0.3 + 0.05 * (robot % 7))};
+  return {apart * (robot % row), apart * std::floor(robot / static_cast<double>(row)),
+          6.283185307179586 * std::fmod(0.618034 * robot, 1.0), 0.3 + 0.02 * (robot % 11),
+          (robot % 2 ? 1 : -1) * (0.3 + 0.05 * (robot % 7))};
 }
 
 }  // namespace muster::bench

@@ -239,7 +239,7 @@ class NoiseFitter {
       change = std::max(change, value == 0 && p.freedom == 0 ? 0 : std::abs(value - p.value) / before);
       p.at_bound = value >= most_[p.path];
       p.value = std::min(value, most_[p.path]);
-      constexpr double half = thresholds::noise_replicates / 2;
+      constexpr double half = thresholds::noise_replicates / 2.0;
       p.freedom = found.freedom[static_cast<Eigen::Index>(k)] * half / (half + 1);  // the shapes are drawn, too
       p.lower95 = p.freedom > 0 ? p.value * std::sqrt(p.freedom / chi_square_quantile(p.freedom, 0.975)) : 0;
       p.upper95 = p.freedom > 0 ? p.value * std::sqrt(p.freedom / chi_square_quantile(p.freedom, 0.025))

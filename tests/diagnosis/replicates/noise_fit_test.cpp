@@ -33,8 +33,8 @@ TEST(NoiseFit, Row32IntervalsCoverTheTruth) {
   int covered = 0, doubted = 0, full = 0;
   double sum = 0;
   constexpr int logs = 24;
-  for (int i = 0; i < logs; ++i) {
-    drive(folder, static_cast<uint64_t>(100 + i), "0.02");
+  for (uint64_t i = 0; i < logs; ++i) {
+    drive(folder, 100 + i, "0.02");
     const NoiseFit fit = fitted_odometry(folder);
     ASSERT_THAT(fit.parameters, SizeIs(1));
     EXPECT_EQ(fit.parameters[0].path, "robots.odometry/noise");
