@@ -91,8 +91,9 @@ class Peer {
         RTCRayHit8 seen;
         alignas(32) int valid[8];
         for (int i = 0; i < 8; ++i) {
-          const float right = (static_cast<float>(x + i % 4) - (width - 1) / 2.0f) / focal;
-          const float down = (static_cast<float>(y + i / 4) - (height - 1) / 2.0f) / focal;
+          const int column = x + i % 4, row = y + i / 4;
+          const float right = (static_cast<float>(column) - (width - 1) / 2.0f) / focal;
+          const float down = (static_cast<float>(row) - (height - 1) / 2.0f) / focal;
           const Eigen::Vector3f ray = axes * Eigen::Vector3f(1, -right, -down);
           valid[i] = -1;
           seen.ray.org_x[i] = eye.x(), seen.ray.org_y[i] = eye.y(), seen.ray.org_z[i] = eye.z();
@@ -113,7 +114,8 @@ class Peer {
         }
         rtcOccluded8(valid, scene_, &context, &shadow);
         for (int i = 0; i < 8; ++i) {
-          const std::size_t at = static_cast<std::size_t>((y + i / 4) * width + x + i % 4);
+          const auto column = static_cast<std::size_t>(x + i % 4), row = static_cast<std::size_t>(y + i / 4);
+          const std::size_t at = row * static_cast<std::size_t>(width) + column;
           const Eigen::Vector3f normal =
               Eigen::Vector3f(seen.hit.Ng_x[i], seen.hit.Ng_y[i], seen.hit.Ng_z[i]).normalized();
           depth[at] = seen.ray.tfar[i];

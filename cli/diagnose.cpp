@@ -26,6 +26,19 @@ Error wrong(const std::string& what) {
   return {Exit::invalid_input, "muster diagnose: " + what + "; see muster diagnose --help"};
 }
 
+// The extended world takes the name of the world: it would replace another one.
+void refuse_other_world(const DiagnoseWords& words) {
+  const std::filesystem::path world = words.world, out = words.out;
+  std::error_code none;
+  const auto name = std::filesystem::is_directory(world, none) ? "world.xml" : world.filename();
+  if (words.out.empty() || !std::filesystem::exists(out / name, none) ||
+      std::filesystem::exists(out / "diagnosis.json", none))
+    return;
+  throw Error(Exit::invalid_input, "--out: " + words.out + " has a " + name.string() +
+                                       " that no diagnosis has written; expected a new folder, or that of an earlier "
+                                       "diagnosis");
+}
+
 DiagnoseWords diagnose_words(const Arguments& arguments) {
   CommandLine line(
       "diagnose",
@@ -61,6 +74,7 @@ DiagnoseWords diagnose_words(const Arguments& arguments) {
   if (std::filesystem::equivalent(words.second, words.data, none))
     throw wrong("--second: " + words.second + " is --data itself; expected readings that were not used");
   WrittenFiles::writes_folder(words.out, "--out");
+  refuse_other_world(words);
   return words;
 }
 

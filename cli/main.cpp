@@ -128,6 +128,7 @@ int main(int argc, char** argv) {
   keep_standard_error();
   report_crashes();
   watch_callbacks();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end
   int code = 0;
   try {

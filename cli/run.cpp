@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "all_parts.hpp"
 #include "idle_doubts.hpp"
 #include "isolated_instances.hpp"
 #include "level_terms.hpp"
@@ -303,17 +304,24 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   if (speed && !words.expected) pacing.emplace(view ? static_cast<WallClock&>(*view) : clock, *speed, run.time());
   const double began_at = run.time();
   const auto began = std::chrono::steady_clock::now();
+  // Each of them is written even where another cannot be.
   const auto finish = [&] {
     std::vector<std::filesystem::path> files;
-    if (record) {
+    AllParts parts;
+    parts.run([&] {
+      if (!record) return;
       auto written = record->close(run, outcome_of(run));
       if (!unnamed) files = std::move(written);
-    }
-    if (log) {
+    });
+    parts.run([&] {
+      if (!log) return;
       for (auto& file : log->close(run)) files.push_back(std::move(file));
       for (const auto& note : log->notes()) fmt::print(stderr, "muster: note: {}\n", note);
-    }
-    if (saved.at_end(run)) files.emplace_back(words.save);
+    });
+    parts.run([&] {
+      if (saved.at_end(run)) files.emplace_back(words.save);
+    });
+    parts.throw_first();
     return files;
   };
   try {
@@ -337,8 +345,12 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
       if (pacing) pacing->wait(run.time());
       progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
     }
-  } catch (const Error&) {
-    finish();  // what stands up to the last whole tick is kept
+  } catch (const Error& first) {
+    try {
+      finish();  // what stands up to the last whole tick is kept
+    } catch (const Error& also) {
+      if (std::string_view(also.what()) != first.what()) fmt::print(stderr, "muster: error: {}\n", also.what());
+    }
     throw;
   }
   if (view && view->wants_anew()) return false;

@@ -98,6 +98,8 @@ void fill(const aiScene& scene, Shared& out) {
 
 // Runs in the child and never returns.
 [[noreturn]] void import(const std::string& name, const std::string& bytes, Shared& out) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT})
+    std::signal(signal, SIG_DFL);  // its end is told by the parent
   enter_cage(limits);
   try {
     Assimp::Importer importer;

@@ -11,6 +11,7 @@ namespace muster::exam {
 
 // Throws std::runtime_error, as write_file does.
 inline std::string read_file(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("cannot read " + file.string() + ": no file");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

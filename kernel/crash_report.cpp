@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <initializer_list>
+#include <utility>
 
 #include "callback_watch.hpp"
 
@@ -11,6 +13,10 @@ namespace muster {
 namespace {
 
 thread_local const RunningCallback* running = nullptr;
+bool reports = false;
+
+constexpr int plugin_fault = 3;  // the exit code
+constexpr std::initializer_list<int> crashes = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
 // Only what is async-signal-safe (POSIX 2.4.3) may be called here: the line is put together without allocation.
 class Line {
@@ -81,15 +87,31 @@ void RunningCallback::note() const { note_callback({may_wait_ ? nullptr : title_
 
 void write_crash(int signal) {
   const RunningCallback* in = running;
+  Line line;
   if (in) {
-    Line line;
     line << "muster: error: " << in->title_ << ": " << in->callback_ << " crashed";
     if (in->tick_ >= 0) line << " at tick " << in->tick_;
     line << ": " << words_of_signal(signal)
          << " in the plugin; a debugger shows where, and the line of a plugin built with "
             "-D CMAKE_BUILD_TYPE=Debug: gdb -ex run --args muster ...\n";
-    line.write();
+  } else {
+    line << "muster: error: crashed outside of every callback: " << words_of_signal(signal)
+         << ", in a thread that a plugin has started, in what a library does when it is unloaded, or in muster itself; "
+            "muster run --isolate all names a plugin whose thread it is, and a debugger shows where: "
+            "gdb -ex run --args muster ...\n";
   }
+  line.write();
+}
+
+void write_exit() {
+  const RunningCallback* in = running;
+  if (!in || !reports) return;
+  Line line;
+  line << "muster: error: " << in->title_ << ": " << in->callback_ << " failed";
+  if (in->tick_ >= 0) line << " at tick " << in->tick_;
+  line << ": the plugin ends the whole process by exit(); expected it to throw, or to report and return\n";
+  line.write();
+  ::_exit(plugin_fault);
 }
 
 void report_crashes() {
@@ -98,7 +120,11 @@ void report_crashes() {
   alternate.ss_sp = stack;
   alternate.ss_size = sizeof stack;
   ::sigaltstack(&alternate, nullptr);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) {
+  if (!std::exchange(reports, true)) {
+    std::atexit(write_exit);
+    std::at_quick_exit(write_exit);
+  }
+  for (const int signal : crashes) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
     if ((before.sa_flags & SA_SIGINFO) || before.sa_handler != SIG_DFL) continue;
@@ -110,6 +136,11 @@ void report_crashes() {
     action.sa_flags = static_cast<int>(SA_ONSTACK | SA_RESETHAND);
     ::sigaction(signal, &action, nullptr);
   }
+}
+
+void leave_crashes_to_parent() {
+  reports = false;
+  for (const int signal : crashes) std::signal(signal, SIG_DFL);
 }
 
 }  // namespace muster

@@ -8,6 +8,8 @@
 namespace muster {
 namespace {
 
+constexpr std::size_t most_words = 2'000;  // [bytes] of a message
+
 // `; did you mean "size"? declared are size, colour`.
 std::string among(const std::string& name, const std::vector<std::string>& declared) {
   const std::string near = did_you_mean(name, declared);
@@ -18,8 +20,13 @@ std::string among(const std::string& name, const std::vector<std::string>& decla
 }  // namespace
 
 std::string in_one_line(std::string words) {
+  if (words.size() > most_words) {
+    auto end = most_words;
+    while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xc0) == 0x80) --end;  // whole characters
+    words = words.substr(0, end) + "... (" + std::to_string(words.size() - end) + " bytes more)";
+  }
   std::replace_if(
-      words.begin(), words.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+      words.begin(), words.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return words;
 }
 

@@ -12,7 +12,8 @@
 
 namespace muster {
 
-// A plugin's words may have several lines; a message is one.
+// A plugin's words may have several lines, or codes that a terminal obeys, and no end; a message is one line, cut after
+// 2,000 bytes.
 std::string in_one_line(std::string words);
 
 // True where a message begins with a place of its own: "diffbot.urdf:6: ...", "routes.csv:3:1: ...".

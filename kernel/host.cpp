@@ -12,6 +12,11 @@
 #include "text/number.hpp"
 
 namespace muster {
+namespace {
+
+constexpr std::size_t most_events = 1'000;  // of an instance in one step
+
+}  // namespace
 
 // Accesses Instance on behalf of its plugin. Nothing thrown here may cross into the plugin.
 struct Host {
@@ -277,7 +282,9 @@ struct Host {
   static void event(const muster_host* host, const char* message) {
     Instance& i = of(host);
     guarded(host, 0, [&] {
-      const std::string text = message, begin = "warning: ";
+      if (i.events.size() == most_events) i.events.push_back("tells more in this step than is kept");
+      if (i.events.size() > most_events) return 0;
+      const std::string text = in_one_line(message), begin = "warning: ";
       const bool is_warning = text.starts_with(begin);
       return i.events.push_back(
                  is_warning ? begin + as_given(text.substr(begin.size()), *i.around_.world, i.around_.search_path)

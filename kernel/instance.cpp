@@ -17,6 +17,12 @@
 #include "world_file/params.hpp"
 
 namespace muster {
+namespace {
+
+constexpr const char* arithmetic_as_it_was = " for the whole process; expected it to leave the arithmetic as it was";
+
+}  // namespace
+
 template <class Body>
 auto Instance::guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept {
   try {
@@ -76,7 +82,7 @@ void Instance::create() {
     return plugin_->create(&host_);
   });
   in_create_ = false;
-  if (guard.changed()) error_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+  if (guard.changed()) error_ = guard.what() + arithmetic_as_it_was;
   if (!self_ || !error_.empty()) {
     const Error error = failure("create", nullptr, said());
     if (self_) plugin_->destroy(self_);
@@ -96,11 +102,13 @@ void Instance::destroy() {
     if (!ended.empty())
       return around_.destroy_faults.push_back(failure("destroy", nullptr, "its own process " + ended).what());
   }
-  guarded(false, [&] {
+  FloatGuard guard;
+  const bool fine = guarded(false, [&] {
     const RunningCallback running(title_.c_str(), "destroy", -1);
     return plugin_->destroy(self_), true;
   });
-  if (!error_.empty()) around_.destroy_faults.push_back(failure("destroy", nullptr, said()).what());
+  if (guard.changed()) error_ = guard.what() + arithmetic_as_it_was;
+  if (!fine || !error_.empty()) around_.destroy_faults.push_back(failure("destroy", nullptr, said()).what());
 }
 
 std::string Instance::title() const {
@@ -288,7 +296,7 @@ bool Instance::step_here(const muster_tick& now) noexcept {
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;
   if (guard.changed()) {
-    error_ = guard.what() + " for the whole process; expected it to leave the arithmetic as it was";
+    error_ = guard.what() + arithmetic_as_it_was;
     guard.restore();
     return false;
   }

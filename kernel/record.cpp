@@ -1,6 +1,7 @@
 #include "record.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 #include "text/names.hpp"
@@ -20,6 +21,18 @@ std::string file_name(const std::string& table) {
       result += '_';
   }
   return result + ".csv";
+}
+
+// A file of that name that no run has recorded, by its first line: the user's own.
+void refuse_to_replace(const std::filesystem::path& path, const std::vector<TextColumn>& columns) {
+  std::ifstream there(path);
+  std::string first, expected;
+  if (!std::getline(there, first)) return;
+  for (const TextColumn& column : columns) expected += (expected.empty() ? "" : ",") + column.label();
+  if (first != expected)
+    throw Error(Exit::invalid_input, Place{path.string()},
+                "is there already and was not recorded by a run of these tables; expected another folder, or that file "
+                "taken away");
 }
 
 // A table's own column with the name of an earlier column gets the set's name as a prefix, "scan_t": names must be
@@ -83,7 +96,9 @@ Recorder::Recorder(const Simulation& run, const std::vector<RecordDeclaration>& 
   for (const auto& declared : tables) {
     if (!seen.insert(declared.table).second) continue;
     const auto path = folder / file_name(declared.table);
-    auto writer = std::make_unique<TextTableWriter>(path, header(*recorded(run, declared).table));
+    const auto columns = header(*recorded(run, declared).table);
+    refuse_to_replace(path, columns);
+    auto writer = std::make_unique<TextTableWriter>(path, columns, Unfinished::kept);
     files_.push_back({{declared.table, declared.every, path}, std::move(writer)});
   }
 }

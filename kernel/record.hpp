@@ -31,7 +31,7 @@ class Recorder {
   void write(const Simulation& run);
   // What was written so far can be read in files of these names with ".part" behind.
   void flush();
-  // Renames the files to their final names; without it nothing remains.
+  // Renames the files to their final names; without it what was flushed stays under the temporary ones.
   std::vector<std::filesystem::path> close();
 
  private:

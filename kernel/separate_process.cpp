@@ -98,7 +98,8 @@ void SeparateProcess::serve_for_ever(const Serve& serve, pid_t parent) {
   if (::getppid() != parent) ::_exit(0);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTERM}) std::signal(signal, SIG_DFL);
+  leave_crashes_to_parent();
+  std::signal(SIGTERM, SIG_DFL);
   for (const int signal : {SIGINT, SIGHUP}) std::signal(signal, SIG_IGN);  // meant for the parent, which ends this
   for (uint32_t served = 0;; ++served) {
     while (!gate().called.wait(served, milliseconds(60'000))) continue;

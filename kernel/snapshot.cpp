@@ -8,6 +8,7 @@
 #include "text/error.hpp"
 #include "text/names.hpp"
 #include "text/text_file.hpp"
+#include "text/whole_file.hpp"
 
 namespace muster {
 namespace {
@@ -142,8 +143,6 @@ uint64_t Snapshot::digest() const {
 }
 
 void Snapshot::save(const std::filesystem::path& file) const {
-  const auto part = file.string() + ".part";
-  std::ofstream out(part, std::ios::binary);
   Writer writer;
   writer.word(tick);
   writer.word(std::bit_cast<uint64_t>(dt));
@@ -175,15 +174,7 @@ void Snapshot::save(const std::filesystem::path& file) const {
     writer.word(instance.column);
     writer.numbers(instance.params);
   }
-  out << magic << writer.finish();
-  out.close();
-  std::error_code renamed;
-  if (out) std::filesystem::rename(part, file, renamed);
-  if (!out || renamed) {
-    const std::string why = renamed ? renamed.message() : system_message(errno);
-    std::filesystem::remove(part, renamed);
-    throw Error(Exit::io, Place{file.string()}, "cannot be written: " + why);
-  }
+  write_whole(file, std::string(magic) + writer.finish());
 }
 
 Snapshot Snapshot::load(const std::filesystem::path& file) {

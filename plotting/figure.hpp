@@ -49,7 +49,7 @@ struct Figure {
 std::string svg(const Figure& figure);
 
 // Writes svg(figure) under a temporary name beside `file` and renames it: readers see the old picture or the new one.
-// Throws std::runtime_error with the file and the reason.
+// Throws std::filesystem::filesystem_error with the file and the reason.
 void save(const Figure& figure, const std::filesystem::path& file);
 
 }  // namespace muster::plotting

@@ -27,7 +27,7 @@ void save_png(const std::vector<double>& value, std::size_t width, Range range, 
   image.format = PNG_FORMAT_RGBA;
   const std::filesystem::path part = file.string() + ".part";
   if (!png_image_write_to_file(&image, part.c_str(), 0, rgba.data(), 0, nullptr))
-    throw std::runtime_error(file.string() + ": cannot write the picture: " + image.message);
+    throw std::filesystem::filesystem_error("cannot write the picture", file, {errno, std::generic_category()});
   std::filesystem::rename(part, file);
 }
 

@@ -3,7 +3,7 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <stdexcept>
+#include <filesystem>
 #include <system_error>
 
 #include "figure.hpp"
@@ -12,7 +12,7 @@ namespace muster::plotting {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int reason) {
-  throw std::runtime_error(file.string() + ": cannot write the picture: " + std::generic_category().message(reason));
+  throw std::filesystem::filesystem_error("cannot write the picture", file, {reason, std::generic_category()});
 }
 
 // 0, or the errno of the failure.

@@ -1,6 +1,5 @@
 #include "text_table_writer.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 
 #include "names.hpp"
 #include "number.hpp"
+#include "whole_file.hpp"
 
 namespace muster {
 namespace {
@@ -24,9 +24,10 @@ bool needs_quotes(std::string_view text) {
 
 }  // namespace
 
-TextTableWriter::TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns)
-    : path_(path), part_(path.string() + ".part"), width_(columns.size()) {
-  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+TextTableWriter::TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns,
+                                 Unfinished unfinished)
+    : path_(path), part_(path.string() + ".part"), unfinished_(unfinished), width_(columns.size()) {
+  fd_ = open_part(path_);
   if (fd_ < 0) fail_system();
   for (const TextColumn& column : columns) text(column.label());
   end_row();
@@ -35,7 +36,7 @@ TextTableWriter::TextTableWriter(const std::filesystem::path& path, const std::v
 TextTableWriter::~TextTableWriter() {
   if (fd_ < 0) return;
   ::close(fd_);
-  ::unlink(part_.c_str());
+  if (unfinished_ == Unfinished::removed || is_empty_) ::unlink(part_.c_str());
 }
 
 void TextTableWriter::real(double value) {
@@ -77,13 +78,8 @@ void TextTableWriter::end_row() {
 }
 
 void TextTableWriter::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty()) {
-    const ::ssize_t written = ::write(fd_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_system();
-    rest.remove_prefix(static_cast<std::size_t>(written));
-  }
+  if (!buffer_.empty()) is_empty_ = false;
+  if (!write_all(fd_, buffer_)) fail_system();
   buffer_.clear();
 }
 
@@ -101,7 +97,10 @@ void TextTableWriter::close(const std::function<void(const std::filesystem::path
 }
 
 void TextTableWriter::fail_system() const {
-  throw Error(Exit::io, Place{path_.string()}, "cannot be written: " + system_message(errno));
+  throw Error(
+      Exit::io, Place{path_.string()},
+      "cannot be written: " + system_message(errno) +
+          (fd_ >= 0 && unfinished_ == Unfinished::kept ? "; what was written until then is in " + part_.string() : ""));
 }
 
 }  // namespace muster

@@ -12,11 +12,15 @@
 
 namespace muster {
 
+// What becomes of the temporary file of a table that was not closed, if anything was flushed to it.
+enum class Unfinished { removed, kept };
+
 // Every failure to write is an Error with Exit::io.
 class TextTableWriter {
  public:
-  TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns);
-  ~TextTableWriter();  // without close() before, nothing remains
+  TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns,
+                  Unfinished unfinished = Unfinished::removed);
+  ~TextTableWriter();
   TextTableWriter(const TextTableWriter&) = delete;
   TextTableWriter& operator=(const TextTableWriter&) = delete;
 
@@ -37,6 +41,8 @@ class TextTableWriter {
 
   std::filesystem::path path_;
   std::filesystem::path part_;  // the temporary name
+  Unfinished unfinished_;
+  bool is_empty_ = true;  // the temporary file
   int fd_ = -1;
   std::size_t width_;
   std::size_t cells_ = 0;  // of this row so far

@@ -6,6 +6,7 @@
 #include "payload.hpp"
 #include "text/error.hpp"
 #include "text/text_file.hpp"
+#include "text/whole_file.hpp"
 
 namespace muster::viewer {
 namespace {
@@ -39,18 +40,6 @@ std::string page_text(const RecordFolder& record, const Payload& payload, const 
   replace_all(page, "@TITLE@", html_text(record.world));
   replace_all(page, "@PAYLOAD@", base64(gzipped(payload.container)));
   return page;
-}
-
-void write_whole(const fs::path& out, const std::string& text) {
-  fs::path part = out;
-  part += ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw Error(Exit::io, {out.string()}, "cannot be written: " + system_message(errno));
-  file.close();
-  std::error_code failed;
-  fs::rename(part, out, failed);
-  if (failed) throw Error(Exit::io, {out.string()}, "cannot be written: " + failed.message());
 }
 
 }  // namespace

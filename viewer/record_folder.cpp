@@ -8,6 +8,7 @@
 #include "text/error.hpp"
 #include "text/names.hpp"
 #include "text/text_file.hpp"
+#include "text/whole_file.hpp"
 
 namespace muster::viewer {
 namespace {
@@ -77,14 +78,7 @@ void write_run_file(const fs::path& folder, const Json& run, const Json& scene,
     list.push_back(
         {{"table", one.table}, {"file", one.file}, {"kind", one.kind}, {"columns", one.columns}, {"every", one.every}});
   const Json whole{{"format", run_format}, {"run", run}, {"tables", list}, {"scene", scene}};
-  const fs::path file = folder / run_file, part = folder / "run.json.part";
-  std::ofstream out(part, std::ios::binary);
-  out << whole.dump() << '\n';
-  if (!out.flush()) throw Error(Exit::io, {file.string()}, "cannot be written: " + system_message(errno));
-  out.close();
-  std::error_code failed;
-  fs::rename(part, file, failed);
-  if (failed) throw Error(Exit::io, {file.string()}, "cannot be written: " + failed.message());
+  write_whole(folder / run_file, whole.dump() + '\n');
 }
 
 RecordFolder read_record_folder(const fs::path& path) {

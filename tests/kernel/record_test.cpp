@@ -85,13 +85,19 @@ TEST_F(Records, WhatIsNotThereIsRefusedWhereItIsAskedFor) {
               HasSubstr("there is no robot \"c\"; expected one of a, b"));
 }
 
-TEST_F(Records, WithoutCloseNothingRemains) {
+TEST_F(Records, WithoutCloseOnlyWhatWasFlushedRemains) {
   Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='robot/*/place'/>\n");
   {
     Recorder recorder(sim, {{"robot/*/place", 1, {}}}, folder / "out");
     step(sim), recorder.write(sim);
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
+  {
+    Recorder recorder(sim, {{"robot/*/place", 1, {}}}, folder / "out");
+    step(sim), recorder.write(sim), recorder.flush();
+  }
+  EXPECT_GT(std::filesystem::file_size(folder / "out/robot_place.csv.part"), 0u);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/robot_place.csv"));
 }
 
 }  // namespace

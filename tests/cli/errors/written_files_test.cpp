@@ -99,4 +99,50 @@ TEST_F(WrittenFiles, AMapNeedsAChannel) {
           "world.xml: the world has no radio channel; expected one, such as <radio.multiwall/>");
 }
 
+TEST_F(WrittenFiles, AreNoTableOfTheUsers) {
+  std::filesystem::create_directory(folder.path() / "out");
+  const std::vector<std::string> run{"run",      "world.xml",       "--out",     "out",
+                                     "--record", "endpoint/*/pose", "--plugins", MUSTER_TOYS};
+  folder.write("out/endpoint_pose.csv", "mine\n");
+  expect_error(
+      folder.muster(run), 2,
+      "out/endpoint_pose.csv: is there already and was not recorded by a run of these tables; expected another "
+      "folder, or that file taken away");
+  EXPECT_EQ(folder.read("out/endpoint_pose.csv"), "mine\n");
+  std::filesystem::remove(folder.path() / "out/endpoint_pose.csv");
+  EXPECT_EQ(folder.muster(run).exit, 0);
+  EXPECT_EQ(folder.muster(run).exit, 0);  // over its own
+}
+
+TEST_F(WrittenFiles, AreNoOtherWorld) {
+  std::filesystem::create_directory(folder.path() / "other");
+  folder.write("other/world.xml", world_of(""));
+  refused({"diagnose", "world.xml", "--data", "data.csv", "--out", "other"},
+          "--out: other has a world.xml that no diagnosis has written; expected a new folder, or that of an earlier "
+          "diagnosis");
+}
+
+TEST_F(WrittenFiles, FolderOfASaveIsLookedForBeforeTheRun) {
+  expect_error(folder.muster({"run", "world.xml", "--save", "none/state", "--plugins", MUSTER_TOYS}), 74,
+               "none/state: cannot be written: No such file or directory");
+}
+
+// What was written until then is kept, and the state is saved all the same.
+TEST_F(WrittenFiles, BeyondTheLimitOfTheirSizeAreAnError) {
+  folder.write("long.xml",
+               "<world name=\"w\" dt=\"0.1\" until=\"10000\"><station name=\"a\" at=\"0 0 1\"/><test.good/>"
+               "<record table=\"endpoint/*/pose\"/></world>");
+  Surroundings limited;
+  limited.wrapper = {"/bin/bash", "-c", "ulimit -f 2000; exec \"$@\"", "--"};  // [kB]
+  const auto outcome =
+      folder.muster({"run", "long.xml", "--out", "out", "--save", "state", "--plugins", MUSTER_TOYS}, limited);
+  EXPECT_EQ(outcome.exit, 74) << outcome.err;
+  const std::string part = "out/endpoint_pose.csv.part";
+  EXPECT_NE(outcome.err.find("cannot be written: File too large; what was written until then is in " + part),
+            outcome.err.npos)
+      << outcome.err;
+  EXPECT_GT(std::filesystem::file_size(folder.path() / part), 1'000'000u);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "state"));
+}
+
 }  // namespace

@@ -1,6 +1,11 @@
-// Writes through a null pointer in its third step, on the run's thread or on all of its workers.
+// Ends the process in its third step: by a null pointer, on the run's thread, on all of its workers or on a thread of
+// its own, or by exit(). Or tells more than anybody reads.
+#include <cstdlib>
 #include <muster/parallel.hpp>
 #include <muster/plugin.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
 
 namespace {
 
@@ -9,13 +14,21 @@ using namespace muster;
 struct Crash {
   static constexpr auto id = "test.crash/1", summary = "crashes";
   static constexpr auto phase = MUSTER_OBSERVE;
-  static constexpr Param params[] = {flag("parallel", false, "on the run's threads")};
+  static constexpr Param params[] = {flag("parallel", false, "on the run's threads"),
+                                     choice("how", "segfault|exit|quick_exit|thread|tells", "what it does")};
 
-  explicit Crash(Setup& s) : parallel(s.value("parallel")), cell(s.write<Cell>("self/cell")) {}
+  explicit Crash(Setup& s) : parallel(s.value("parallel")), how(s.value("how")), cell(s.write<Cell>("self/cell")) {}
 
   void step(const Step& k) const {
     k[cell]->value = 0;
     if (k.tick() < 3) return;
+    if (k[how] == 1) std::exit(0);
+    if (k[how] == 2) std::quick_exit(0);
+    if (k[how] == 3) std::thread([] { *nowhere = 1; }).join();
+    if (k[how] == 4) {
+      for (int i = 0; i < 5000; ++i) k.event("line\x1b[31m");
+      throw std::runtime_error(std::string(1'000'000, 'e'));
+    }
     if (k[parallel] == 0) *nowhere = 1;
     each(k, 8, [](std::size_t) { *nowhere = 1; });
   }
@@ -25,7 +38,7 @@ struct Crash {
     double value;
   };
   static int* volatile nowhere;
-  Value parallel;
+  Value parallel, how;
   Out<Cell> cell;
 };
 

@@ -29,6 +29,32 @@ TEST(Crash, OfAStepNamesThePluginAndTheTick) {
   EXPECT_THAT(parallel.err, testing::StartsWith(line));  // two threads may crash at once
 }
 
+TEST(Crash, ExitOfAPluginIsItsFault) {
+  for (const char* how : {"exit", "quick_exit"})
+    EXPECT_EQ(
+        crashed(std::string("how=\"") + how + '"', "1").err,
+        "muster: error: world.xml:1:36: mine (test.crash): step failed at tick 3: the plugin ends the whole process "
+        "by exit(); expected it to throw, or to report and return\n");
+  EXPECT_EQ(crashed("how=\"exit\"", "1").exit, 3);
+}
+
+TEST(Crash, OfAThreadOfAPluginsOwnIsTold) {
+  if (sanitized) GTEST_SKIP() << "the sanitizer reports it";
+  const auto outcome = crashed("how=\"thread\"", "1");
+  EXPECT_EQ(outcome.exit, 128 + 11);
+  EXPECT_THAT(outcome.err, testing::StartsWith("muster: error: crashed outside of every callback: a segmentation fault "
+                                               "(SIGSEGV), in a thread that a plugin has started"));
+  EXPECT_THAT(outcome.err, testing::HasSubstr("muster run --isolate all names"));
+}
+
+TEST(Crash, WordsOfAPluginAreCutAndNoTerminalObeysThem) {
+  const auto outcome = crashed("how=\"tells\"", "1");
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("eeee... (998000 bytes more)"));
+  EXPECT_LT(outcome.err.size(), 3000u);
+  EXPECT_EQ(outcome.out.find('\x1b'), outcome.out.npos);
+}
+
 TEST(Crash, InAProcessOfItsOwnEndsTheRunOrCostsThatPluginOnly) {
   if (sanitized) GTEST_SKIP() << "the sanitizer reports it";
   const ProgramFolder folder;
