@@ -1,6 +1,7 @@
 #include "instance.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "host.hpp"
 #include "instance_doubts.hpp"
 #include "loader/float_guard.hpp"
+#include "loader/process_guard.hpp"
 #include "needed_attribute.hpp"
 #include "separate_process.hpp"
 #include "text/names.hpp"
@@ -20,6 +22,7 @@ namespace muster {
 namespace {
 
 constexpr const char* arithmetic_as_it_was = " for the whole process; expected it to leave the arithmetic as it was";
+constexpr const char* process_as_it_was = " for the whole process; expected it to leave that as it was";
 
 }  // namespace
 
@@ -71,7 +74,7 @@ std::string trial(const Isolation& how, const Callback& callback) {
 }  // namespace
 
 void Instance::create() {
-  FloatGuard guard;
+  const ProcessGuard guard;
   in_create_ = true;
   if (isolation_ && !may_wait_) {
     const std::string ended = trial(*isolation_, [&] { plugin_->create(&host_); });
@@ -82,7 +85,7 @@ void Instance::create() {
     return plugin_->create(&host_);
   });
   in_create_ = false;
-  if (guard.changed()) error_ = guard.what() + arithmetic_as_it_was;
+  if (const std::string changed = guard.what(); !changed.empty()) error_ = changed + process_as_it_was;
   if (!self_ || !error_.empty()) {
     const Error error = failure("create", nullptr, said());
     if (self_) plugin_->destroy(self_);
@@ -292,6 +295,9 @@ bool Instance::step_here(const muster_tick& now) noexcept {
   tick_ = static_cast<int64_t>(now.index);
   time_ = now.time;
   const RunningCallback running(title_.c_str(), "step", tick_, now.time, may_wait_);
+  // The rest of the process is looked at in the steps 1, 2, 4, 8, ..., where no other instance steps beside it.
+  std::optional<ProcessGuard> process;
+  if (std::has_single_bit(++steps_) && !there_ && !around_.workers) process.emplace();
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;
@@ -299,6 +305,10 @@ bool Instance::step_here(const muster_tick& now) noexcept {
     error_ = guard.what() + arithmetic_as_it_was;
     guard.restore();
     return false;
+  }
+  if (process) {
+    if (const std::string changed = process->what(); !changed.empty())
+      return error_ = changed + process_as_it_was, false;
   }
   return fine && error_.empty();
 }

@@ -194,6 +194,7 @@ class Instance {
   bool refused_ = false;  // the message is the kernel's own refusal
   int64_t tick_ = -1;     // of its last step
   double time_ = 0;       // [s] of the same
+  uint64_t steps_ = 0;
   bool may_wait_ = false;
   bool in_create_ = false, in_step_ = false, direct_ = false;
   const Set* asked_ = nullptr;  // the set of its last query in this step

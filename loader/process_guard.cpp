@@ -1,6 +1,11 @@
 #include "process_guard.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <clocale>
+#include <cstring>
 #include <system_error>
 
 namespace muster {
@@ -26,9 +31,40 @@ bool same(const sigset_t& a, const sigset_t& b) {
   return true;
 }
 
+mode_t file_mask() {
+  const mode_t now = ::umask(0);
+  ::umask(now);
+  return now;
+}
+
+constexpr std::array watched = {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGPIPE};
+using Handlers = std::array<struct sigaction, watched.size()>;
+
+Handlers handlers() {
+  Handlers result{};
+  for (std::size_t i = 0; i < watched.size(); ++i) ::sigaction(watched[i], nullptr, &result[i]);
+  return result;
+}
+
+bool same(const struct sigaction& a, const struct sigaction& b) {
+  if ((a.sa_flags & SA_SIGINFO) != (b.sa_flags & SA_SIGINFO)) return false;
+  return (a.sa_flags & SA_SIGINFO) ? a.sa_sigaction == b.sa_sigaction : a.sa_handler == b.sa_handler;
+}
+
+std::pair<dev_t, ino_t> identity(int descriptor) {
+  struct stat now {};
+  return ::fstat(descriptor, &now) == 0 ? std::pair{now.st_dev, now.st_ino} : std::pair{dev_t{}, ino_t{}};
+}
+
 }  // namespace
 
-ProcessGuard::ProcessGuard() : c_locale_(c_locale()), folder_(folder()), signals_(signals()) {}
+ProcessGuard::ProcessGuard()
+    : c_locale_(c_locale()),
+      folder_(folder()),
+      signals_(signals()),
+      mask_(file_mask()),
+      handlers_(handlers()),
+      standard_{identity(STDOUT_FILENO), identity(STDERR_FILENO)} {}
 
 std::string ProcessGuard::what() const {
   std::string result = float_.what();
@@ -39,6 +75,12 @@ std::string ProcessGuard::what() const {
     add("changes the global std::locale");
   if (folder() != folder_) add("changes the working directory to " + folder().string());
   if (!same(signals(), signals_)) add("changes the signal mask");
+  if (file_mask() != mask_) add("changes the mask of new files (umask)");
+  const Handlers now = handlers();
+  for (std::size_t i = 0; i < watched.size(); ++i)
+    if (!same(now[i], handlers_[i])) add(std::string("takes the handler of SIG") + ::sigabbrev_np(watched[i]));
+  if (identity(STDOUT_FILENO) != standard_[0]) add("closes or exchanges the standard output");
+  if (identity(STDERR_FILENO) != standard_[1]) add("closes or exchanges the standard error");
   return result;
 }
 
@@ -49,6 +91,10 @@ void ProcessGuard::restore() const noexcept {
   std::error_code gone;
   if (!folder_.empty() && folder() != folder_) std::filesystem::current_path(folder_, gone);
   ::pthread_sigmask(SIG_SETMASK, &signals_, nullptr);
+  ::umask(mask_);
+  const Handlers now = handlers();
+  for (std::size_t i = 0; i < watched.size(); ++i)
+    if (!same(now[i], handlers_[i])) ::sigaction(watched[i], &handlers_[i], nullptr);
 }
 
 }  // namespace muster

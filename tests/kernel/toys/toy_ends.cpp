@@ -22,7 +22,7 @@ struct Ending {
   static constexpr auto id = "toy.ends/1", summary = "ends its process";
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
-      choice("how", "never|segfault|exit|abort|kill|loop|thread|reaches|umask", "what it does"),
+      choice("how", "never|segfault|exit|abort|kill|loop|thread|reaches|umask|handler|folder", "what it does"),
       choice("where", "step|create|destroy", "in which callback"),
       integer("tick", 3, 0, 1000, "in the step of this tick"),
       text("once", "", "a file: it does so if it can delete that"),
@@ -70,6 +70,12 @@ struct Ending {
         break;
       case 8:
         ::umask(0777);
+        break;
+      case 9:
+        std::signal(SIGINT, SIG_IGN);
+        break;
+      case 10:
+        if (::chdir("/") != 0) std::abort();
         break;
       default:
         break;
