@@ -50,10 +50,20 @@ class OwnThread {
   dThreadingImplementationID made_;
 };
 
+// An assertion of ODE's did not hold and ended a step with an exception, its structures half changed: destroying them
+// would end the process, so that they are left to its end.
+bool has_given_up();
+
 struct Destroy {
-  void operator()(dxWorld* world) const { dWorldDestroy(world); }
-  void operator()(dxSpace* space) const { dSpaceDestroy(space); }  // and its contents
-  void operator()(dxJointGroup* group) const { dJointGroupDestroy(group); }
+  void operator()(dxWorld* world) const {
+    if (!has_given_up()) dWorldDestroy(world);
+  }
+  void operator()(dxSpace* space) const {  // and its contents
+    if (!has_given_up()) dSpaceDestroy(space);
+  }
+  void operator()(dxJointGroup* group) const {
+    if (!has_given_up()) dJointGroupDestroy(group);
+  }
 };
 
 }  // namespace muster::ode

@@ -166,5 +166,24 @@ TEST(OdeWorld, ComplaintsAreCounted) {
   EXPECT_EQ(run.events().back().message, "ODE complains of a step; self/complaints counts how often it does");
 }
 
+// ODE itself would end the process.
+TEST(OdeWorld, AnAssertionOfOdesIsAnErrorOfItsStep) {
+  const Folder folder;
+  folder.write("heavy.urdf",
+               "<robot name='heavy'><link name='base_link'><inertial><mass value='1e300'/><inertia ixx='1e300' ixy='0' "
+               "ixz='0' iyy='1e300' iyz='0' izz='1e300'/></inertial><collision><geometry><box size='1 1 1'/></geometry>"
+               "</collision></link></robot>");
+  Forwards run(folder, "<robot name='h' model='heavy.urdf' at='0 0 1'/>");
+  try {
+    run.run_to(100);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::plugin_fault);
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("physics (physics.ode): step failed at tick 1 (t = 0.01 s): ODE gives up: "
+                                   "assertion "));
+  }
+}
+
 }  // namespace
 }  // namespace muster::test
