@@ -1,7 +1,6 @@
 #include "instance.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -283,6 +282,28 @@ bool Instance::step(const muster_tick& now) noexcept {
   return guarded(false, [&] { return there_->run(now); });
 }
 
+namespace {
+
+// std::has_single_bit counts all bits, by a call where the processor may be of before 2008.
+constexpr bool is_power_of_two(uint64_t number) { return (number & (number - 1)) == 0; }
+
+}  // namespace
+
+// Some steps take place between guards, all of the first and ever fewer later. Where it steps in a process of its own,
+// it can write into nothing of others.
+bool Instance::is_looked_at() const {
+  constexpr uint64_t all = 16, one_of = 4096;
+  return !there_ && (steps_ <= all || is_power_of_two(steps_) || steps_ % one_of == 0);
+}
+
+std::string Instance::words_of(const GuardedViews::Fault& fault) const {
+  if (fault.words.empty()) return "";
+  const TableName& name = claims_[fault.claim].name;
+  const bool is_private = name.set == "instance/" + this->name();
+  return fault.words + ' ' + quote(is_private ? "self/" + name.quantity : name.text()) +
+         "; expected writes into the cells of its own rows alone, until step() returns";
+}
+
 bool Instance::step_here(const muster_tick& now) noexcept {
   const double dt = around_.world->dt * static_cast<double>(every());
   const muster_tick tick{sizeof(muster_tick), now.flags, now.index, now.time, dt, params_.data()};
@@ -295,12 +316,19 @@ bool Instance::step_here(const muster_tick& now) noexcept {
   tick_ = static_cast<int64_t>(now.index);
   time_ = now.time;
   const RunningCallback running(title_.c_str(), "step", tick_, now.time, may_wait_);
+  ++steps_;
   // The rest of the process is looked at in the steps 1, 2, 4, 8, ..., where no other instance steps beside it.
-  std::optional<ProcessGuard> process;
-  if (std::has_single_bit(++steps_) && !there_ && !around_.workers) process.emplace();
+  std::unique_ptr<ProcessGuard> process;
+  if (is_power_of_two(steps_) && !there_ && !around_.workers) process = std::make_unique<ProcessGuard>();
+  if (is_looked_at()) guarded_views_.open(in_, out_);
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
   in_step_ = false;
+  if (guarded_views_.keeps_any() || guarded_views_.is_open()) {
+    std::string beside = words_of(guarded_views_.written_since());
+    if (guarded_views_.is_open()) beside += words_of(guarded_views_.close());
+    if (!beside.empty() && error_.empty()) error_ = beside;
+  }
   if (guard.changed()) {
     error_ = guard.what() + arithmetic_as_it_was;
     guard.restore();

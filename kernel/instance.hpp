@@ -11,6 +11,7 @@
 
 #include "blackboard.hpp"
 #include "callback_watch.hpp"
+#include "guarded_views.hpp"
 #include "isolation.hpp"
 #include "loader/library.hpp"
 #include "text/table_cache.hpp"
@@ -167,6 +168,8 @@ class Instance {
   void create();
   void destroy();
   bool step_here(const muster_tick& now) noexcept;
+  bool is_looked_at() const;
+  std::string words_of(const GuardedViews::Fault& fault) const;
   // Implementations of the host's claim() and file(); they throw Error where the host returns -1.
   int claim(uint32_t kind, uint32_t flags, const std::string& table, const std::string& columns);
   int file(const std::string& param, const std::string& columns);
@@ -195,6 +198,7 @@ class Instance {
   int64_t tick_ = -1;     // of its last step
   double time_ = 0;       // [s] of the same
   uint64_t steps_ = 0;
+  GuardedViews guarded_views_;
   bool may_wait_ = false;
   bool in_create_ = false, in_step_ = false, direct_ = false;
   const Set* asked_ = nullptr;  // the set of its last query in this step

@@ -165,9 +165,10 @@ TEST_F(Isolated, WithoutWritersOfEveryKindTheirValuesStay) {
 
 TEST_F(Isolated, WritesNowhereElse) {
   const uint64_t expected = digest_of(run(harmless));
-  EXPECT_NE(digest_of(run(busy_world + "<toy.ends name='mine' how='reaches'/>\n")), expected);  // in the process
+  EXPECT_NE(digest_of(run(busy_world + "<toy.ends name='mine' how='reaches' tick='20'/>\n")),
+            expected);  // in the process
   const mode_t before = ::umask(022);
-  Simulation sim = ending("reaches", AfterCrash::stop), other = ending("umask", AfterCrash::stop);
+  Simulation sim = ending("reaches", AfterCrash::stop, "tick='20'"), other = ending("umask", AfterCrash::stop);
   step(sim, ticks), step(other, ticks);
   EXPECT_EQ(::umask(before), 022);
   Simulation plain = run(harmless);

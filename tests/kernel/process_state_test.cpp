@@ -41,5 +41,23 @@ TEST_F(ProcessState, ChangeInCreateIsThePluginsFault) {
             "expected it to leave that as it was");
 }
 
+// Cells of others, and those beside its own.
+TEST_F(ProcessState, WritesBesideItsCellsAreThePluginsFault) {
+  const std::string cells = "; expected writes into the cells of its own rows alone, until step() returns";
+  const auto fault = [&](const std::string& how, int tick) {
+    Simulation sim = run(moving + "<toy.ends name='mine' how='" + how + "' tick='" + std::to_string(tick) + "'/>\n");
+    const std::string error = error_of([&] { step(sim, tick + 1); });
+    EXPECT_TRUE(error.ends_with(cells)) << error;
+    const std::string begin = "3 world.xml:5:1: mine (toy.ends): step failed at tick ";
+    EXPECT_TRUE(error.starts_with(begin)) << error;
+    return error.substr(begin.size(), error.size() - cells.size() - begin.size());
+  };
+  EXPECT_EQ(fault("behind", 3), "3 (t = 1.5 s): writes behind the last cell of \"self/count\"");
+  EXPECT_EQ(fault("before", 16), "16 (t = 8 s): writes before the first cell of \"self/count\"");
+  EXPECT_EQ(fault("reaches", 512), "512 (t = 256 s): changes what it was given to read of \"robot/*/pose\"");
+  EXPECT_EQ(fault("keeps", 5),
+            "5 (t = 2.5 s): keeps a pointer beyond its step, and wrote through it into \"self/count\"");
+}
+
 }  // namespace
 }  // namespace muster

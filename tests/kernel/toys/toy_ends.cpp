@@ -22,7 +22,8 @@ struct Ending {
   static constexpr auto id = "toy.ends/1", summary = "ends its process";
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
-      choice("how", "never|segfault|exit|abort|kill|loop|thread|reaches|umask|handler|folder", "what it does"),
+      choice("how", "never|segfault|exit|abort|kill|loop|thread|reaches|umask|handler|folder|behind|before|keeps",
+             "what it does"),
       choice("where", "step|create|destroy", "in which callback"),
       integer("tick", 3, 0, 1000, "in the step of this tick"),
       text("once", "", "a file: it does so if it can delete that"),
@@ -43,7 +44,14 @@ struct Ending {
 
   void step(const Step& k) const {
     k[count]->count = k.last(count)->count + 1;
-    if (where == 0 && k.tick() == static_cast<uint64_t>(k[at])) act(&k[pose][0].x);
+    if (where != 0) return;
+    static double* kept = nullptr;
+    if (how == 13 && kept && k.tick() == static_cast<uint64_t>(k[at])) *kept = 1;
+    if (how == 13) kept = &k[count][0].count;
+    if (k.tick() != static_cast<uint64_t>(k[at])) return;
+    if (how == 11) (&k[count][0].count)[1] = 1;
+    if (how == 12) (&k[count][0].count)[-1] = 1;
+    act(&k[pose][0].x);
   }
 
   void act(const double* read) const {
