@@ -58,6 +58,7 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   }
   in_.resize(claims_.size());
   out_.resize(claims_.size());
+  for (const std::string& doubt : library_->doubts()) events.push_back("warning: " + place().text() + ": " + doubt);
 }
 
 Instance::~Instance() {
@@ -91,6 +92,21 @@ static bool means_all(const std::string& row) {
   return false;
 }
 
+// A reference in a plugin's source to a set that is none: "robots" for "robot".
+static void refuse_unknown_set(const muster_param& param, const muster_plugin& plugin, const Blackboard& board,
+                               const std::string& row, const Place& place) {
+  std::vector<std::string> sets;
+  for (const auto& [name, set] : board.sets()) {
+    if (set->is_named() && set->find(row) >= 0 && name.find('/') == name.npos) sets.push_back(name);
+  }
+  const std::string near = nearest(param.text, sets);
+  if (near.empty()) return;  // one on demand, of which this world has no row
+  throw Error(Exit::plugin_fault, place,
+              std::string(plugin.id) + ": its parameter " + quote(param.name) + " refers to rows of " +
+                  quote(param.text) + ", which is no set; expected reference(" + quote(param.name) + ", " +
+                  quote(near) + ", ...) in its source");
+}
+
 void Instance::check_attributes() {
   std::vector<std::string> valid = reserved_attributes;
   for (uint32_t i = 0; i < plugin_->param_count; ++i) {
@@ -109,6 +125,7 @@ void Instance::check_attributes() {
   const muster_param* asked = nullptr;
   const FindRow find_row = [&](const std::string& set, const std::string& row, const Place& place) -> double {
     const Set* found = around_.board->find_set(set);
+    if (!found && asked) refuse_unknown_set(*asked, *plugin_, *around_.board, row, declared_.place);
     if (!found || found->find(row) < 0)
       throw invalid(place, "no " + set + " is called " + quote(row) +
                                (around_.world ? which_is(*around_.world, row, set) : "") + "; " +
