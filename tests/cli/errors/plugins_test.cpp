@@ -110,6 +110,12 @@ TEST(Fault16, ATextIsThatOfATextParameter) {
                "not declared in params; did you mean \"size\"? declared are size");
 }
 
+TEST(Fault16, AReferenceToRowsOfNoSetIsThePlugins) {
+  expect_error(run_toy(ProgramFolder(), "<robot name=\"rover\" at=\"0 0 0\"/><test.refers whose=\"rover\"/>"), 3,
+               "world.xml:1:70: test.refers/1: its parameter \"whose\" refers to rows of \"robots\", which is no set; "
+               "expected reference(\"whose\", \"robot\", ...) in its source");
+}
+
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
   const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.refuses/>"), 2,
