@@ -112,7 +112,7 @@ TEST(Fault16, ATextIsThatOfATextParameter) {
 
 TEST(Fault16, AReferenceToRowsOfNoSetIsThePlugins) {
   expect_error(run_toy(ProgramFolder(), "<robot name=\"rover\" at=\"0 0 0\"/><test.refers whose=\"rover\"/>"), 3,
-               "world.xml:1:70: test.refers/1: its parameter \"whose\" refers to rows of \"robots\", which is no set; "
+               "world.xml:1:68: test.refers/1: its parameter \"whose\" refers to rows of \"robots\", which is no set; "
                "expected reference(\"whose\", \"robot\", ...) in its source");
 }
 
