@@ -8,9 +8,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <muster/first_bytes.hpp>
-#include <muster/params.hpp>
 #include <muster/plugin_traits.hpp>
-#include <muster/plugin_words.hpp>
 #include <muster/random.hpp>
 #include <muster/rows.hpp>
 #include <muster/tables.hpp>
