@@ -63,7 +63,10 @@ DiagnoseWords diagnose_words(const Arguments& arguments) {
   line.parse(arguments);
   if (!words.check.empty()) {
     if (!(words.world + words.data + words.out + words.second).empty())
-      throw wrong("--check goes with --plugins and --json alone");
+      throw wrong(
+          "--check goes with --plugins and --json alone, as its folder has the world and the data; expected "
+          "muster diagnose --check " +
+          words.check);
     return words;
   }
   if (words.world.empty()) throw wrong("world is required");

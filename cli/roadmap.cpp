@@ -183,15 +183,37 @@ std::vector<RobotsGoal> goals_of(const World& world) {
   return result;
 }
 
-constexpr double largest = 10;  // m, radius of a robot
+constexpr double largest = 10;                          // m, radius of a robot, and
+constexpr double usual_least = 0.05, usual_most = 1.5;  // of one that is meant in another unit
+
+// `; is this in centimetres? expected --radius 0.3`, of a radius that no robot has.
+std::string meant_radius(double radius) {
+  const double in_centimetres = radius / 100, in_millimetres = radius / 1000;
+  const bool is_usual = in_centimetres >= usual_least && in_centimetres <= usual_most;
+  return std::string("; is this in ") + (is_usual ? "centi" : "milli") + "metres? expected --radius " +
+         print_real(is_usual ? in_centimetres : in_millimetres);
+}
+
+// Throws Error where the walls, grown by a radius that no robot has, leave no place for any robot of the world.
+void check_radius(const World& world, const PlannedRobot& robot, const MadeRoadmap& made) {
+  if (robot.is_of_world || robot.radius <= largest) return;
+  const auto poses = declared_rows<Pose>(world, "robot", "pose");
+  if (std::any_of(poses.begin(), poses.end(), [&](const Pose& p) { return made.obstacles.is_free({p.x, p.y}); }))
+    return;
+  throw Error(Exit::invalid_input, "--radius: " + print_real(robot.radius) + " m, with which " +
+                                       (poses.empty() ? "no robot drives between these walls"
+                                                      : "no robot of the world has room where it stands") +
+                                       meant_radius(robot.radius));
+}
 
 // What keeps robots from where they are to go.
 std::vector<std::string> roadmap_warnings(const World& world, const PlannedRobot& robot, const MadeRoadmap& made) {
   std::vector<std::string> result;
   if (robot.radius > largest)
-    result.push_back((robot.is_of_world ? "robot " + quote(robot.name) + " has a radius of " : "--radius: ") +
-                     print_real(robot.radius) + " m, more than any robot; is this in millimetres? " +
-                     (robot.is_of_world ? "expected metres" : "expected --radius " + print_real(robot.radius / 1000)));
+    result.push_back(
+        (robot.is_of_world ? "robot " + quote(robot.name) + " has a radius of " : "--radius: ") +
+        print_real(robot.radius) + " m, more than any robot" +
+        (robot.is_of_world ? "; is its model in millimetres? expected metres" : meant_radius(robot.radius)));
   const auto names = declared_names(world, "robot");
   const auto poses = declared_rows<Pose>(world, "robot", "pose");
   const auto goals = goals_of(world);
@@ -271,6 +293,7 @@ int run_roadmap(const Arguments& arguments) {
   const World world = read_world(words.world, standard());
   const PlannedRobot robot = planned_robot(world, words);
   const MadeRoadmap made = made_roadmap(world, robot, words);
+  check_radius(world, robot, made);
   std::vector<std::string> warnings = roadmap_warnings(world, robot, made);
   const auto way = wanted_way(world, robot, made, words, warnings);
 

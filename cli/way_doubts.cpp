@@ -58,6 +58,25 @@ std::string far_away(const Way& way, double until) {
   return "";
 }
 
+// Places of the globe: all of a track lie within a thousandth of a degree or so, and far from the plan.
+std::string on_the_globe(const Way& way) {
+  constexpr double extent = 0.1, away = 5;  // m, if they were metres
+  constexpr std::size_t fewest = 3;
+  if (way.points.size() < fewest) return "";
+  double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300, nearest = 1e300;
+  for (const rm::Point& each : way.points) {
+    x0 = std::min(x0, each.x), x1 = std::max(x1, each.x), y0 = std::min(y0, each.y), y1 = std::max(y1, each.y);
+    nearest = std::min(nearest, rm::distance(way.start, each));
+  }
+  const double size = std::hypot(x1 - x0, y1 - y0);
+  if (!(size > 0 && size < extent && nearest > away)) return "";
+  return way.table.place(0, 0).text() + ": all " + std::to_string(way.points.size()) + " way points lie within " +
+         print_real(std::ceil(size * 1000) / 1000) + " m, and " + print_real(std::round(nearest)) +
+         " m from the start; are these latitude and longitude? expected metres of the plan: 0.00001 degrees of "
+         "latitude "
+         "are 1.1 m to the north";
+}
+
 std::string at_once(const Way& way) {
   const double tolerance = param_of(*way.instance, "tolerance");
   double longest = 0;
@@ -125,6 +144,7 @@ std::vector<std::string> way_doubts(const Simulation& run) {
     if (!leads(*instance)) continue;
     const Way way = way_of(run, *instance);
     std::string doubt = far_away(way, run.world().until());
+    if (doubt.empty()) doubt = on_the_globe(way);
     if (doubt.empty()) doubt = at_once(way);
     if (doubt.empty() && is_hard) doubt = through_wall(run, way);
     if (!doubt.empty()) result.push_back(doubt);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/file_text.hpp"
+#include "description/urdf_inertia.hpp"
 
 namespace muster::description {
 
@@ -11,7 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double body_largest = 20;          // m, of a shape
 constexpr double body_farthest = 20;         // m, of a laser from its robot's origin
 constexpr double body_longest_range = 1000;  // m, of a laser
 constexpr double body_off_centre = 10;       // times the shapes' size, of the centre of mass from them
@@ -55,17 +55,42 @@ class BodyDoubts {
  public:
   BodyDoubts(const Source& source, bool is_mjcf, Robot& robot) : source_(source), is_mjcf_(is_mjcf), robot_(robot) {}
 
-  void sizes_of_links() {
+  // A shape beyond all robots. It comes first and alone: what else is told of such a body follows from it.
+  bool is_in_millimetres() {
+    const Link* first = nullptr;
+    std::size_t others = 0;
+    for (const Link& link : robot_.links) {
+      if (!is_oversized(link.shapes)) continue;
+      if (first)
+        ++others;
+      else
+        first = &link;
+    }
+    if (!first) return false;
+    const Shape& shape = *std::max_element(
+        first->shapes.begin(), first->shapes.end(), [](const Shape& a, const Shape& b) {  // a mesh's reader warns of it
+          const auto size = [](const Shape& s) {
+            return std::holds_alternative<Mesh>(s.geometry) ? 0 : bounds(s).sizes().maxCoeff();
+          };
+          return size(a) < size(b);
+        });
+    const Vector3d edges = bounds(shape).sizes();
+    const std::string count = std::to_string(others);
+    robot_.warnings.insert(
+        robot_.warnings.begin(),
+        source_.file + ":" + std::to_string(first->line) + ": link '" + first->name + "': a shape of " +
+            edges_text(edges) +
+            (others == 0 ? ""
+                         : ", and " + count + (others == 1 ? " other link is" : " other links are") + " as large") +
+            "; are these millimetres? expected metres, here " + edges_text(edges / 1000) +
+            ", and all origins, radii and distances of the model alike");
+    return true;
+  }
+
+  void centres_of_links() {
     for (const Link& link : robot_.links) {
       Eigen::AlignedBox3d all;
-      for (const Shape& shape : link.shapes) {
-        const Eigen::AlignedBox3d box = bounds(shape);
-        all.extend(box);
-        const bool is_mesh = std::holds_alternative<Mesh>(shape.geometry);  // what reads it warns
-        if (is_mesh || box.sizes().maxCoeff() <= body_largest) continue;
-        warn(link.line, "link '" + link.name + "': a shape of " + edges_text(box.sizes()) + "; are these millimetres?");
-        break;
-      }
+      for (const Shape& shape : link.shapes) all.extend(bounds(shape));
       if (link.mass.mass <= 0 || all.isEmpty()) continue;
       const double off = all.exteriorDistance(link.mass.centre);
       if (off > 1 && off > body_off_centre * all.sizes().norm())
@@ -188,7 +213,8 @@ class BodyDoubts {
 
 void warn_of_body(const Source& source, bool is_mjcf, bool has_shapes, Robot& robot) {
   BodyDoubts doubts(source, is_mjcf, robot);
-  doubts.sizes_of_links();
+  if (doubts.is_in_millimetres()) return;
+  doubts.centres_of_links();
   doubts.lasers();
   if (!robot.drive) return;
   doubts.wheels();

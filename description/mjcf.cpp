@@ -298,7 +298,29 @@ class Reader {
       const std::string name = one->Name();
       for (const char* known : {"tendon", "equality", "contact", "sensor", "keyframe", "custom"})
         if (name == known) not_taken_.insert("<" + name + ">");
+      if (name == "option") note_option(*one);
+      for (const char* mass : {"settotalmass", "boundmass", "boundinertia"})
+        if (name == "compiler" && one->Attribute(mass)) not_taken_.insert(std::string(mass) + " of <compiler>");
     }
+  }
+
+  // Physics of the file beyond the robot; its solver's own settings are of MuJoCo alone.
+  void note_option(const XMLElement& option) {
+    constexpr double earth = 9.81;
+    const char* gravity = option.Attribute("gravity");
+    const auto values = parse_numbers(gravity ? gravity : "");
+    const bool is_earth = values && values->size() == 3 && std::abs((*values)[0]) + std::abs((*values)[1]) < 1e-9 &&
+                          std::abs((*values)[2] + earth) < 0.02;
+    const auto* flag = option.FirstChildElement("flag");
+    const bool is_off = flag && flag->Attribute("gravity") && flag->Attribute("gravity") == std::string("disable");
+    if ((gravity && !is_earth) || is_off)
+      not_taken_.insert(std::string("gravity") + (gravity && !is_off ? "=\"" + std::string(gravity) + '"' : "") +
+                        " of <option> (a world has 9.81 m/s2 downwards)");
+    if (option.Attribute("timestep"))
+      not_taken_.insert("timestep of <option> (expected step=\"" + std::string(option.Attribute("timestep")) +
+                        "\" of the physics in the world)");
+    for (const char* one : {"wind", "density", "viscosity", "magnetic"})
+      if (option.Attribute(one)) not_taken_.insert(std::string(one) + " of <option>");
   }
 
   std::string place(const XMLElement& element) const {

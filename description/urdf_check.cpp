@@ -60,6 +60,14 @@ void check_numbers(const Source& source, const XMLElement& element, const std::s
       source.fail(element.GetLineNum(), what + "=\"" + text + "\" is wrong; expected " + expected);
     }
   }
+  if (element.Name() == std::string("geometry")) {
+    const XMLElement* first = element.FirstChildElement();
+    if (const XMLElement* second = first ? first->NextSiblingElement() : nullptr)
+      source.fail(second->GetLineNum(),
+                  owner + ": <geometry> has a <" + first->Name() + "> and a <" + second->Name() +
+                      ">, of which URDF reads the first alone; expected one shape, and another <" +
+                      element.Parent()->Value() + "> for each more");
+  }
   if (element.Name() == std::string("collision") && !element.FirstChildElement("geometry"))
     source.fail(element.GetLineNum(), owner + ": <collision> has no <geometry>");
   for (const auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {

@@ -29,6 +29,25 @@ class Doubts {
       look(*child, owner);
   }
 
+  // Gazebo's friction of a wheel, where that of the drive is another. Thousands are "no slip", and no figure.
+  void gazebo(const XMLElement& element) {
+    const char* link = element.Attribute("reference");
+    const auto wheel = std::find_if(robot_.joints.begin(), robot_.joints.end(), [&](const Joint& joint) {
+      return link && robot_.links[joint.child].name == link && is_wheel(joint);
+    });
+    const XMLElement* mu = element.FirstChildElement("mu1");
+    const double given = parse_number(mu && mu->GetText() ? mu->GetText() : "").value_or(0);
+    constexpr double alike = 0.05;
+    if (wheel == robot_.joints.end() || !(given > 0 && given <= stickiest) ||
+        std::abs(given - robot_.drive->friction) <= alike)
+      return;
+    if (!said_friction_)
+      warn(*mu, "<gazebo> of '" + std::string(link) + "': <mu1> " + print_number(given) +
+                    " is not taken, and the drive's wheels have a friction of " + print_number(robot_.drive->friction) +
+                    "; expected friction=\"" + print_number(given) + "\" in <muster>, <differential>");
+    said_friction_ = true;
+  }
+
   void transmission(const XMLElement& element) {
     std::vector<std::string> names;
     for (const Joint& joint : robot_.joints) names.push_back(joint.name);
@@ -42,6 +61,27 @@ class Doubts {
   }
 
  private:
+  bool is_wheel(const Joint& joint) const {
+    return robot_.drive && robot_.drive->side_of(static_cast<std::size_t>(&joint - robot_.joints.data())) >= 0;
+  }
+
+  // effort="0" velocity="0", as exports of CAD programs have it: of a wheel nobody means that.
+  void no_motion(const XMLElement& element, const XMLElement& joint, const std::string& owner) {
+    const char* name = joint.Attribute("name");
+    std::string zeros;
+    for (const char* one : {"effort", "velocity"})
+      if (element.Attribute(one) && number(element, one) == 0)
+        zeros += (zeros.empty() ? "" : " ") + std::string(one) + "=\"" + element.Attribute(one) + '"';
+    const auto own = std::find_if(robot_.joints.begin(), robot_.joints.end(),
+                                  [&](const Joint& each) { return name && each.name == name; });
+    if (zeros.empty() || own == robot_.joints.end() || !is_wheel(*own)) return;
+    warn(element, owner + ": <limit> " + zeros +
+                      " would let the wheel not turn, and is taken as no limit; the drive has " +
+                      print_number(robot_.drive->max_torque) + " N m and " + print_number(robot_.drive->max_speed) +
+                      " rad/s: expected effort=\"" + print_number(robot_.drive->max_torque) + "\" velocity=\"" +
+                      print_number(robot_.drive->max_speed) + "\", or no <limit>");
+  }
+
   void warn(const XMLElement& element, const std::string& what) {
     robot_.warnings.push_back(source_.file + ":" + std::to_string(element.GetLineNum()) + ": " + what);
   }
@@ -68,6 +108,7 @@ class Doubts {
 
   void limits(const XMLElement& element, const std::string& owner) {
     const XMLElement* joint = element.Parent()->ToElement();
+    if (joint) no_motion(element, *joint, owner);
     const char* type = joint ? joint->Attribute("type") : nullptr;
     if (!type || type != std::string("revolute")) return;
     const double lower = number(element, "lower"), upper = number(element, "upper");
@@ -85,6 +126,7 @@ class Doubts {
 
   const Source& source_;
   Robot& robot_;
+  bool said_friction_ = false;  // of all wheels alike
 };
 
 const XMLElement* joint_called(const XMLElement& root, const std::string& name) {
@@ -130,6 +172,7 @@ void warn_of_doubts(const Source& source, const XMLElement& root, Robot& robot) 
   for (const auto* each = root.FirstChildElement(); each; each = each->NextSiblingElement()) {
     const std::string kind = each->Name();
     const char* name = each->Attribute("name");
+    if (kind == "gazebo") doubts.gazebo(*each);
     if (kind == "transmission") doubts.transmission(*each);
     if (kind == "link" || kind == "joint" || kind == "sensor" || kind == "muster")
       doubts.look(*each, kind + (name ? " '" + std::string(name) + "'" : ""));

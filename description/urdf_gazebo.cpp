@@ -159,6 +159,13 @@ class Gazebo {
     Sensor sensor{name, frame_of(gazebo, link, name) * pose_of(read, element), read.above_0(element, "update_rate"),
                   laser_of(read, *ray)};
     robot_.sensors.push_back(sensor);
+    const XMLElement* noise = ray->FirstChildElement("noise");
+    const double deviation = noise ? read.number(*noise, "stddev", 0) : 0;
+    if (deviation > 0)
+      robot_.warnings.push_back(source_.file + ":" + std::to_string(noise->GetLineNum()) + ": sensor '" + name +
+                                "': its <noise> of " + print_number(deviation) +
+                                " m is not taken; expected <sensors.laser noise=\"" + print_number(deviation) +
+                                "\"/> in the world");
   }
 
   Eigen::Isometry3d frame_of(const XMLElement& gazebo, const std::string& link, const std::string& sensor) const {

@@ -1,6 +1,7 @@
 #include "description/urdf_inertia.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -81,6 +82,13 @@ void compare(const Mass& mass, const Mass& full, const Mass& even, std::vector<s
 
 }  // namespace
 
+bool is_oversized(const std::vector<Shape>& shapes) {
+  constexpr double largest = 20;  // m
+  return std::any_of(shapes.begin(), shapes.end(), [](const Shape& shape) {
+    return !std::holds_alternative<Mesh>(shape.geometry) && bounds(shape).sizes().maxCoeff() > largest;
+  });
+}
+
 std::optional<Mass> filled(const std::vector<Shape>& shapes) {
   Mass sum;
   for (const Shape& shape : shapes) {
@@ -142,7 +150,8 @@ void check_inertia(Mass& mass, const Eigen::Isometry3d& frame, const std::vector
                        " above the sum of the others; the others are raised by " + print_number(lack) +
                        " kg m2 each; write " + inertial_text(in_parent(frame, mass)));
   }
-  if (even) compare(mass, *full, *even, warnings);
+  // Of a body in millimetres every mass is wrong, and one question is enough: warn_of_body() asks it.
+  if (even && !is_oversized(shapes)) compare(mass, *full, *even, warnings);
 }
 
 }  // namespace muster::description

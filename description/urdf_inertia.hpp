@@ -9,6 +9,9 @@
 
 namespace muster::description {
 
+// True if one of the shapes, meshes aside, is larger than any robot: it is in millimetres.
+bool is_oversized(const std::vector<Shape>& shapes);
+
 // Collision shapes filled with a density of 1 kg/m3, in their link's frame; none where there are no shapes, or a mesh
 // among them.
 std::optional<Mass> filled(const std::vector<Shape>& shapes);

@@ -309,6 +309,8 @@ int Instance::file(const std::string& param, const std::string& columns) {
   made.name = {"file", param, given, ""};
   check_references(made, *this, *around_.board);
   made.file = read_file_table(path, made.columns, closed, *around_.board, *around_.tables);
+  for (const std::string& unread : unread_columns(path, made.columns, *around_.tables))
+    events.push_back("warning: " + unread);
   if (filled && made.file->rows == 0)
     throw invalid({path.string(), 1, 1}, "has no rows below its header; expected one at least");
   claims_.push_back(std::move(made));

@@ -5,6 +5,7 @@
 #include <muster/row_types.hpp>
 
 #include "text/names.hpp"
+#include "text/synonyms.hpp"
 #include "text/text_table.hpp"
 
 namespace muster {
@@ -59,6 +60,10 @@ std::string of_another_kind(const TextTable& table, const std::vector<std::strin
     return "these places have no times, which follow from the speed; expected " + all +
            " without t (poses over time carry a robot by physics.replay)";
   }
+  if (is_of_places && has("z") && !takes("z") && known.size() == 2)
+    return "these places are on the ground; expected x, y without z, or <control.path3d/>, by which a robot flies "
+           "along "
+           "x[m],y[m],z[m]";
   return "";
 }
 
@@ -102,6 +107,25 @@ std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const 
       cells->data[r * columns.size() + c] = std::isnan(values[r]) ? null() : values[r];
   }
   return cells;
+}
+
+std::vector<std::string> unread_columns(const std::filesystem::path& path, const Columns& columns, TableCache& tables) {
+  const std::shared_ptr<const TextTable> table = tables.read(path);
+  std::vector<std::string> absent, result;
+  for (const auto& column : columns)
+    if (column.nullable && !table->find(column.name)) absent.push_back(column.name);
+  for (std::size_t c = 0; c < table->columns().size() && !absent.empty(); ++c) {
+    const std::string& name = table->columns()[c].name;
+    if (columns.find(name) >= 0) continue;
+    std::string meant = synonym(name, absent);
+    if (meant.empty() && name.size() > 2) meant = nearest(name, absent);
+    const int number = meant.empty() ? -1 : columns.find(meant);
+    if (number < 0) continue;
+    const std::string& unit = columns[static_cast<std::size_t>(number)].unit;
+    result.push_back(table->header_place(c).text() + ": column " + quote(name) + " is not read; is it " + meant +
+                     "? expected the header " + quote(unit.empty() ? meant : meant + '[' + unit + ']'));
+  }
+  return result;
 }
 
 }  // namespace muster

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "blackboard.hpp"
 #include "text/table_cache.hpp"
@@ -13,5 +15,8 @@ namespace muster {
 // and column of the file.
 std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const Columns& columns, bool closed,
                                        Blackboard& board, TableCache& tables);
+
+// Warnings of columns that are not read and mean one that is not there, as `theta` means `yaw`.
+std::vector<std::string> unread_columns(const std::filesystem::path& path, const Columns& columns, TableCache& tables);
 
 }  // namespace muster

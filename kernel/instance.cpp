@@ -90,6 +90,7 @@ void Instance::create() {
     if (self_) plugin_->destroy(self_);
     throw Error(error);
   }
+  for (const std::string& doubt : library_->doubts()) events.push_back("warning: " + place().text() + ": " + doubt);
 }
 
 Instance::~Instance() {
@@ -136,6 +137,21 @@ bool means_all(const std::string& row) {
   return false;
 }
 
+// A reference in a plugin's source to a set that is none: "robots" for "robot".
+void refuse_unknown_set(const muster_param& param, const muster_plugin& plugin, const Blackboard& board,
+                        const std::string& row, const Place& place) {
+  std::vector<std::string> sets;
+  for (const auto& [name, set] : board.sets()) {
+    if (set->is_named() && set->find(row) >= 0 && name.find('/') == name.npos) sets.push_back(name);
+  }
+  const std::string near = nearest(param.text, sets);
+  if (near.empty()) return;  // one on demand, of which this world has no row
+  throw Error(Exit::plugin_fault, place,
+              std::string(plugin.id) + ": its parameter " + quote(param.name) + " refers to rows of " +
+                  quote(param.text) + ", which is no set; expected reference(" + quote(param.name) + ", " +
+                  quote(near) + ", ...) in its source");
+}
+
 }  // namespace
 
 void Instance::check_attributes() {
@@ -156,6 +172,7 @@ void Instance::check_attributes() {
   const muster_param* asked = nullptr;
   const FindRow find_row = [&](const std::string& set, const std::string& row, const Place& place) -> double {
     const Set* found = around_.board->find_set(set);
+    if (!found && asked) refuse_unknown_set(*asked, *plugin_, *around_.board, row, declared_.place);
     if (!found || found->find(row) < 0)
       throw invalid(place, "no " + set + " is called " + quote(row) +
                                (around_.world ? which_is(*around_.world, row, set) : "") + "; " +

@@ -130,13 +130,50 @@ std::string swap_with(const InstanceDeclaration& now, const std::string& name, c
   return result + "/></swap>";
 }
 
+namespace {
+
+// How a robot goes on at another place: by one of another name, as names and their controllers are for the whole run.
+std::string elsewhere(const Simulation& run, const std::string& path) {
+  std::string name = path.substr(6, path.find('/', 6) - 6);
+  if (name == "*") name = "NAME";
+  std::string other = name + "_2";
+  const Set* robots = run.board().find_set("robot");
+  for (int number = 3; robots && robots->find(other) >= 0; ++number) other = name + '_' + std::to_string(number);
+  return "; to put the robot elsewhere, in an <at>: <leave robot=\"" + name + "\"/>, <robot name=\"" + other +
+         "\" model=\"...\" at=\"X Y Z\"/>, which joins there, and a controller with robot=\"" + other + '"';
+}
+
+}  // namespace
+
+std::string fault_of_robot(const Simulation& run, const std::string& path) {
+  const std::string owner = owner_of(path), name = path.substr(std::min(owner.size() + 1, path.size()));
+  const auto& rows = run.world().rows;
+  const auto robot = std::find_if(
+      rows.begin(), rows.end(), [&](const RowDeclaration& each) { return each.set == "robot" && each.name == owner; });
+  const Set* robots = run.board().find_set("robot");
+  if (robot == rows.end() || !robots) return "";
+  std::vector<std::string> own;
+  for (const auto& instance : run.instances()) {
+    if (instance->phase() != MUSTER_CONTROL || instance->bound_row() != robots->find(owner)) continue;
+    const std::string begin = quote(owner) + " is a robot (" + robot->place.text() + ") and has no parameters; ";
+    for (uint32_t i = 0; i < instance->plugin().param_count; ++i) {
+      const muster_param& param = instance->plugin().params[i];
+      if (!is_settable(param)) continue;
+      own.push_back(instance->name() + '/' + param.name);
+      if (name == param.name)
+        return begin + "did you mean " + quote(own.back()) + ", of its controller " + instance->declared().plugin + '?';
+    }
+    if (!own.empty()) return begin + "its controller " + instance->declared().plugin + " has " + listed(own);
+  }
+  return "";
+}
+
 std::string state_fault(const Simulation& run, const std::string& path) {
   const auto view = run.find_table(path.substr(0, path.rfind('/')));
   if (!view || view->table->columns().find(path.substr(path.rfind('/') + 1)) < 0) return "";
   const std::string such = likely_parameter(run, view->row);
   return quote(path) + " is a state, which plugins write, and no parameter; expected a parameter" +
-         (such.empty() ? "" : ", such as " + such) +
-         (path.rfind("robot/", 0) == 0 ? ", or <leave> and a <robot> that joins at another place" : "");
+         (such.empty() ? "" : ", such as " + such) + (path.rfind("robot/", 0) == 0 ? elsewhere(run, path) : "");
 }
 
 }  // namespace muster

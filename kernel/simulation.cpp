@@ -289,6 +289,10 @@ std::string Simulation::suggest_table(const std::string& name) const {
     if (table.substr(0, table.find('/')) == wanted_set && table.find('@') == table.npos)
       of_word[table.substr(table.rfind('/') + 1)] = table;
   }
+  // "robot/rover/pose/x", as a condition names it.
+  const std::string whole = name.substr(0, name.rfind('/')), quantity = whole.substr(whole.rfind('/') + 1);
+  if (std::count(whole.begin(), whole.end(), '/') > 1 && valid.count(wanted_set + "/*/" + quantity))
+    return quote(wanted) + " is taken for a column of it, and tables are named whole; expected " + quote(whole);
   if (of_word.empty()) {
     for (const auto& set : standard_.sets) {  // "pose": a quantity alone
       const std::string table = std::string(set.name) + "/*/" + name;

@@ -16,6 +16,7 @@
 
 #include "elf.hpp"
 #include "library_copy.hpp"
+#include "library_doubts.hpp"
 #include "library_probe.hpp"
 #include "process_guard.hpp"
 #include "registration.hpp"
@@ -258,7 +259,11 @@ std::shared_ptr<Library> LibraryLoader::open(const std::filesystem::path& file) 
   const std::string name = module->copy.name();
   if (const std::string why = probe_->try_out(name); !why.empty()) throw Refusal(one_line(why));
   std::vector<muster_plugin> plugins = open_and_register(module->library, name, [](const char*) {});
-  return std::shared_ptr<Library>(new Library(file, std::move(module), std::move(plugins)));
+  const std::string id(parse_plugin_id(plugins.front().id).id);
+  std::vector<std::string> doubts = library_doubts(module->copy.bytes(), id);
+  std::shared_ptr<Library> result(new Library(file, std::move(module), std::move(plugins)));
+  result->doubts_ = std::move(doubts);
+  return result;
 }
 
 std::shared_ptr<Library> LibraryLoader::load(const std::string& plugin_id,

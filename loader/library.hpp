@@ -39,6 +39,8 @@ class Library {
   std::string_view id() const;  // "radio.multiwall"
   // The checked descriptors, by ascending revision, at least one. Fields that an older library lacks are 0.
   const std::vector<muster_plugin>& plugins() const { return plugins_; }
+  // Warnings of what it calls: library_doubts().
+  const std::vector<std::string>& doubts() const { return doubts_; }
 
  private:
   friend class LibraryLoader;
@@ -48,6 +50,7 @@ class Library {
   std::filesystem::path file_;
   std::unique_ptr<Module> module_;
   std::vector<muster_plugin> plugins_;
+  std::vector<std::string> doubts_;
 };
 
 // Loads the libraries of a world, which share the child process that tries them out. It forks at the first load: no

@@ -62,6 +62,8 @@ void check_number(const std::string& of, const muster_param& p) {
 void check_choice(const std::string& of, const muster_param& p) {
   if (!p.text) refuse("{} has no choices", of);
   const std::vector<std::string_view> choices = split(p.text, '|');
+  if (choices.size() == 1 && choices[0].find_first_of(",; /") != choices[0].npos)
+    refuse("{} has one choice, \"{}\"; expected them with | between, such as \"slow|fast\"", of, p.text);
   if (std::ranges::count(choices, std::string_view()) > 0) refuse("{} has an empty choice in \"{}\"", of, p.text);
   if (std::set(choices.begin(), choices.end()).size() < choices.size())
     refuse("{} has a choice twice in \"{}\"", of, p.text);

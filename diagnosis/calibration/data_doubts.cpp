@@ -7,6 +7,7 @@
 #include <limits>
 #include <muster/tables.hpp>
 #include <set>
+#include <tuple>
 
 #include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
@@ -61,9 +62,10 @@ struct RadioTrack {
     for (const Point& p : places) seen.emplace(p[0], p[1]);
     return seen.size();
   }
-  // True if the places, times this factor, cover much of the plan and lie within it.
+  // True if the places, times this factor, cover much of the plan and lie within it, or not far around it: a robot
+  // drives before the house, too.
   bool fits(const PlanBox& plan, double factor) const {
-    const double margin = 1;  // m
+    const double margin = std::max(1.0, 0.25 * plan.size());  // m
     return factor * box.size() > 0.25 * plan.size() && std::all_of(places.begin(), places.end(), [&](const Point& p) {
              return plan.beside(factor * p[0], factor * p[1]) <= margin;
            });
@@ -74,21 +76,24 @@ std::string size_of(const PlanBox& plan) {
   return fmt::format("{:.3g} x {:.3g} m", plan.x1 - plan.x0, plan.y1 - plan.y0);
 }
 
-std::string place_doubt(const std::string& name, const RadioTrack& track, const PlanBox& plan) {
+// `end`: "rx", whose columns hold the places.
+std::string place_doubt(const std::string& name, const RadioTrack& track, const PlanBox& plan, const char* end) {
   const bool is_far = track.furthest > thresholds::plans_beside * plan.size();
   for (const auto& [factor, unit] : {std::pair(0.01, "centimetres"), {0.001, "millimetres"}}) {
     if (is_far && track.fits(plan, factor))
       return fmt::format(
-          "places of {} reach from x = {:.4g}, y = {:.4g} to x = {:.4g}, y = {:.4g} m, far beyond the plan of the "
-          "walls, {}, and lie in it as {}; are they {}? expected metres (a map of muster import: rx_x[m] = {}*COLUMN)",
-          quote(name), track.box.x0, track.box.y0, track.box.x1, track.box.y1, size_of(plan), unit, unit, factor);
+          "places of {3} reach from x = {4:.4g}, y = {5:.4g} to x = {6:.4g}, y = {7:.4g} m, far beyond the plan of the "
+          "walls, {8}, and lie in it as {0}; are they {0}? expected metres (a map of muster import: {1}_x[m] = "
+          "{2}*COLUMN, {1}_y[m] "
+          "alike)",
+          unit, end, factor, quote(name), track.box.x0, track.box.y0, track.box.x1, track.box.y1, size_of(plan));
   }
   if (track.nearest > thresholds::degrees_beside && track.box.size() < thresholds::degrees_extent &&
       track.distinct() >= thresholds::degrees_places)
     return fmt::format(
         "all {} places of {} lie within {:.2g} m, {:.3g} m beside the plan of the walls; are these latitude and "
-        "longitude? expected metres of the plan (a map of muster import: rx_x[m] = east LATITUDE LONGITUDE)",
-        track.distinct(), quote(name), track.box.size(), track.nearest);
+        "longitude? expected metres of the plan (a map of muster import: {}_x[m] = east LATITUDE LONGITUDE)",
+        track.distinct(), quote(name), track.box.size(), track.nearest, end);
   if (track.nearest > thresholds::plans_beside * plan.size())
     return fmt::format(
         "all places of {} lie {:.4g} to {:.4g} m beside the plan of the walls, {}; are they of another site, or from "
@@ -97,8 +102,14 @@ std::string place_doubt(const std::string& name, const RadioTrack& track, const 
   return "";
 }
 
+// "data.csv:1:40: " of the column of one end: a unit is a matter of its header.
+std::string at_column(const Dataset& data, const std::string& name) {
+  const auto found = data.table->find(name);
+  return found ? data.table->header_place(*found).text() + ": " : "";
+}
+
 // A height in metres that the walls have only as millimetres, or all of them below the feet of the walls.
-std::string height_doubt(const std::string& name, const RadioTrack& track, const PlanBox& plan) {
+std::string height_doubt(const std::string& name, const RadioTrack& track, const PlanBox& plan, const char* end) {
   double low = 1e300, high = -1e300;
   for (const Point& p : track.places) {
     low = std::min(low, std::isnan(p[2]) ? -1e300 : p[2]);
@@ -107,13 +118,13 @@ std::string height_doubt(const std::string& name, const RadioTrack& track, const
   if (high < 0 && high < plan.foot && plan.top > 0)
     return fmt::format(
         "{} is {:.4g} m or more below the ground (z = 0), throughout; is z down in the data, as in PX4 (NED)? expected "
-        "metres up (a map of muster import: rx_z[m] = -1*COLUMN)",
-        quote(name), -high);
+        "metres up (a map of muster import: {}_z[m] = -1*COLUMN)",
+        quote(name), -high, end);
   if (!(low > plan.top + thresholds::height_above) || low / 1000 > plan.top) return "";
   return fmt::format(
       "{} stands {:.4g} m high, and the walls end at {:.3g} m; are these millimetres? expected metres (a map of muster "
-      "import: rx_z[m] = 0.001*COLUMN)",
-      quote(name), low, plan.top);
+      "import: {}_z[m] = 0.001*COLUMN)",
+      quote(name), low, plan.top, end);
 }
 
 double distance(const std::array<End, 2>& ends) {
@@ -162,17 +173,19 @@ std::vector<std::string> material_doubts(const LinkModel& model, const Dataset& 
 
 std::vector<std::string> doubts_of(const LinkModel& model, const Dataset& data) {
   std::vector<std::string> result = material_doubts(model, data);
-  const auto add = [&](const std::string& doubt) {
-    if (!doubt.empty()) result.push_back(doubt);
+  const auto add = [&](const std::string& column, const std::string& doubt) {
+    if (!doubt.empty()) result.push_back(at_column(data, column) + doubt);
   };
-  add(level_doubt(model, data));
+  add(data.reading, level_doubt(model, data));
   const PlanBox plan = plan_of(model);
   if (!data.has_places() || !(plan.x1 > plan.x0 && plan.y1 > plan.y0)) return result;
-  for (const auto& [end, at] : {std::pair(&data.tx, &data.tx_at), std::pair(&data.rx, &data.rx_at)}) {
+  for (const auto& [name, end, at] :
+       {std::tuple("tx", &data.tx, &data.tx_at), std::tuple("rx", &data.rx, &data.rx_at)}) {
+    const std::string begin(name);
     for (std::size_t radio = 0; radio < end->levels.size(); ++radio) {
       const RadioTrack track(data, radio, *at, *end, plan);
-      add(place_doubt(end->levels[radio], track, plan));
-      add(height_doubt(end->levels[radio], track, plan));
+      add(begin + "_x", place_doubt(end->levels[radio], track, plan, name));
+      add(begin + "_z", height_doubt(end->levels[radio], track, plan, name));
     }
   }
   return result;

@@ -90,17 +90,18 @@ void check_rssi(const Dataset& data) {
                                     : "an rssi of " + print_real(v) + " dBm ";
       return invalid(at(data, row, data.reading), row_text(row) + ": " + what + why);
     };
-    if (v > thresholds::strongest_level) {
+    // One value in several rows is what a program writes where there is none.
+    const auto mark = [&](bool one_is_enough) {
       const auto alike = std::count(data.rssi.begin(), data.rssi.end(), v);
       const std::string text = print_real(data.reading == "path_loss" ? -v : v);
-      throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative" +
-                   (alike < 2 ? ""
-                              : "; " + std::to_string(alike) + " rows have it: is " + text +
-                                    " a mark for nothing received? then leave these cells empty (in a map of muster "
-                                    "import: none " +
-                                    data.reading + " = " + text + ")"));
-    }
-    if (v < thresholds::weakest_level) throw refuse("is below thermal noise; expected a level in dBm");
+      if (alike < 2 && !one_is_enough) return std::string();
+      return "; " + (alike < 2 ? std::string() : std::to_string(alike) + " rows have it: ") + "is " + text +
+             " a mark for nothing received? then leave " + (alike < 2 ? "the cell" : "these cells") +
+             " empty (in a map of muster import: none " + data.reading + " = " + text + ")";
+    };
+    if (v > thresholds::strongest_level)
+      throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative" + mark(false));
+    if (v < thresholds::weakest_level) throw refuse("is below thermal noise; expected a level in dBm" + mark(true));
   }
 }
 

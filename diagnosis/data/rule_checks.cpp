@@ -5,6 +5,7 @@
 #include "diagnosis/data/dataset.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/unit_words.hpp"
 
 namespace muster::diagnosis {
 
@@ -34,6 +35,15 @@ void refuse_exchanged(const ColumnRule& rule, const std::vector<ForeignTable>& f
     return;
   throw invalid(rule.place, "the rule is the wrong way round: a column of the result stands on the left, and one of " +
                                 files[0].file() + " on the right; expected " + right + " = " + rule.column.label());
+}
+
+std::string in_our_unit(const ColumnRule& rule, const std::string& unit) {
+  const double factor = rule.column.unit.empty() ? 1 : in_unit(unit, "1" + rule.column.unit).value_or(1);
+  const bool is_plain = rule.number && rule.number->offset == 0 && !rule.number->logarithm;
+  if (factor == 1 || !is_plain || rule.number->from.column.empty()) return ", and SCALE*COLUMN where that differs";
+  const ColumnReference& from = rule.number->from;
+  return ": " + TextColumn{rule.column.name, unit}.label() + " = " + print_real(factor * rule.number->scale) + '*' +
+         (from.table.empty() ? "" : from.table + '.') + from.column;
 }
 
 }  // namespace muster::diagnosis

@@ -159,7 +159,7 @@ class Importer {
       throw invalid(rule.place,
                     "column " + quote(rule.column.label()) +
                         (rule.column.unit.empty() ? " has no unit; expected " : " has the wrong unit; expected ") +
-                        quote(TextColumn{name, unit}.label()) + ", and SCALE*COLUMN where that differs");
+                        quote(TextColumn{name, unit}.label()) + in_our_unit(rule, unit));
     if (unit.empty() && !rule.is_name) {
       const std::string from = rule.number ? rule.number->from.column : "",
                         begin = quote(name) + " is a column of names";

@@ -1,12 +1,11 @@
 // C++ wrapper of plugin.h: header-only and C++17, so nothing here is part of the ABI.
 #pragma once
 
-#include <cxxabi.h>
 #include <muster/plugin.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <iterator>
 #include <muster/first_bytes.hpp>
 #include <muster/plugin_traits.hpp>
@@ -17,45 +16,10 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <typeinfo>
 #include <utility>
+#include <vector>
 
 namespace muster {
-
-// ---- Declared parameters ------------------------------------------------------------------------------------------
-
-struct Param : muster_param {
-  constexpr Param free() const { return with(MUSTER_FREE); }          // a fit may move it
-  constexpr Param required() const { return with(MUSTER_REQUIRED); }  // the world file must give it
-  constexpr Param with(uint32_t flag) const {
-    Param result = *this;
-    result.flags |= flag;
-    return result;
-  }
-};
-
-constexpr Param real(const char* name, double value, double min, double max, const char* unit, const char* help) {
-  return {{name, MUSTER_REAL, 0, value, min, max, unit, help, nullptr}};
-}
-constexpr Param integer(const char* name, double value, double min, double max, const char* help) {
-  return {{name, MUSTER_INTEGER, 0, value, min, max, "", help, nullptr}};
-}
-constexpr Param flag(const char* name, bool value, const char* help) {
-  return {{name, MUSTER_FLAG, 0, value ? 1.0 : 0.0, 0, 1, "", help, nullptr}};
-}
-// `choices` is "a|b|c"; the default is the first.
-constexpr Param choice(const char* name, const char* choices, const char* help) {
-  return {{name, MUSTER_CHOICE, 0, 0, 0, 0, "", help, choices}};
-}
-// The name of a row of `set`; -1 where the world file does not give it.
-constexpr Param reference(const char* name, const char* set, const char* help) {
-  return {{name, MUSTER_REFERENCE, 0, -1, -1, 0, "", help, set}};
-}
-constexpr Param text(const char* name, const char* value, const char* help) {
-  return {{name, MUSTER_TEXT, 0, 0, 0, 0, "", help, value}};
-}
-// A path, relative to the world file.
-constexpr Param file(const char* name, const char* help) { return {{name, MUSTER_FILE, 0, 0, 0, 0, "", help, ""}}; }
 
 // ---- Values -------------------------------------------------------------------------------------------------------
 
@@ -93,18 +57,11 @@ struct BadInput : std::runtime_error {
 
 // ---- Callbacks ----------------------------------------------------------------------------------------------------
 
-namespace detail {
-inline void warn(const muster_host* host, const std::string& row, const std::string& message) {
-  const char* place = host->text(host, (row + "/place").c_str());
-  host->event(host, ("warning: " + (place ? place + std::string(": ") : "") + message).c_str());
-}
-}  // namespace detail
-
 // Calls available to a constructor. Each throws when the kernel refuses it; the kernel already has the message.
 class Setup {
  public:
   Setup(const muster_host* host, const muster_param* params, uint32_t count)
-      : host_(host), params_(params), count_(count) {}
+      : host_(host), params_(params), count_(count), used_(count, false) {}
 
   template <class Row>
   In<Row> read(const std::string& table, uint32_t flags = 0) {
@@ -129,34 +86,66 @@ class Setup {
   // The CSV file that a parameter names; Row::columns are its columns.
   template <class Row>
   In<Row> file(const char* param) {
+    use(param);
     detail::check_row_type<Row>();
-    return {claimed(host_->file(host_, param, Row::columns))};
+    return {claimed(host_->file(host_, param, detail::column_names<Row>()))};
   }
 
   // A number that step() reads as k[value], so that changing it needs no new instance.
   Value value(const char* name) const {
-    for (uint32_t i = 0; i < count_; ++i) {
-      if (!std::strcmp(params_[i].name, name)) return {static_cast<int>(i)};
-    }
-    throw std::logic_error(std::string("parameter \"") + name + "\" is used but not declared");
+    const Value found = declared(name);
+    const uint32_t kind = params_[found.index].kind;
+    if (kind == MUSTER_TEXT || kind == MUSTER_FILE)
+      throw std::runtime_error(std::string("parameter \"") + name + "\" is " +
+                               (kind == MUSTER_TEXT ? "a text" : "a file") + ", and no number; expected s.text(\"" +
+                               name + "\"), in the constructor");
+    return found;
   }
-  double param(const char* name) const { return host_->param(host_, name); }
+  double param(const char* name) const {
+    use(name);
+    return host_->param(host_, name);
+  }
   // A text or file parameter by its name, or a text of the world by its path; "" where there is none.
   std::string text(const std::string& path) const {
-    if (path.find('/') == path.npos) value(path.c_str());  // throws where it is not declared
+    if (path.find('/') == path.npos) declared(path.c_str());  // throws where it is not
     const char* found = host_->text(host_, path.c_str());
     return found ? found : "";
   }
   // Reports "warning: FILE:LINE:COLUMN: message", with the place of a row ("robot/leader") or of the instance ("self").
   void warn(const std::string& row, const std::string& message) const { detail::warn(host_, row, message); }
   Stream stream(const char* name) const { return Stream(host_->stream(host_, name)); }
-  const muster_host* host() const { return host_; }
+  // Whose calls may look at any parameter.
+  const muster_host* host() const {
+    used_.assign(count_, true);
+    return host_;
+  }
+
+  // A number or text that the world file gives and no call has looked at, by its name; null if there is none.
+  const char* unused() const {
+    for (uint32_t i = 0; i < count_; ++i) {
+      const std::string place = std::string("self/place/") + params_[i].name;
+      if (!used_[i] && params_[i].kind != MUSTER_REFERENCE && host_->text(host_, place.c_str())) return params_[i].name;
+    }
+    return nullptr;
+  }
 
  private:
+  void use(const char* name) const {
+    for (uint32_t i = 0; i < count_; ++i) {
+      if (!std::strcmp(params_[i].name, name)) used_[i] = true;
+    }
+  }
+  Value declared(const char* name) const {
+    use(name);
+    for (uint32_t i = 0; i < count_; ++i) {
+      if (!std::strcmp(params_[i].name, name)) return {static_cast<int>(i)};
+    }
+    throw std::logic_error(std::string("parameter \"") + name + "\" is used but not declared");
+  }
   template <class Row>
   int claim(uint32_t kind, uint32_t flags, const std::string& table) {
     detail::check_row_type<Row>();
-    return claimed(host_->claim(host_, kind, flags, table.c_str(), Row::columns));
+    return claimed(host_->claim(host_, kind, flags, table.c_str(), detail::column_names<Row>()));
   }
   static int claimed(int index) {
     if (index < 0) throw std::runtime_error("");
@@ -165,6 +154,7 @@ class Setup {
   const muster_host* host_;
   const muster_param* params_;
   uint32_t count_;
+  mutable std::vector<bool> used_;  // of params_
 };
 
 // Calls available to step().
@@ -271,17 +261,6 @@ class Step {
 
 namespace detail {
 
-// Words of an exception that nobody wrote for a reader, such as that of vector::at(): they need the type, and the
-// place.
-inline std::string unexpected(const std::exception& e) {
-  int failed = 0;
-  char* name = abi::__cxa_demangle(typeid(e).name(), nullptr, nullptr, &failed);
-  const std::string type = failed == 0 && name ? name : typeid(e).name();
-  std::free(name);
-  return "threw " + type + ": " + e.what() +
-         "; a debugger shows where: gdb -ex 'catch throw' -ex run --args muster ...";
-}
-
 // Turns every exception into an error code: none crosses the ABI.
 template <class Body>
 bool guarded(const muster_host* host, Body&& body) noexcept {
@@ -323,14 +302,6 @@ struct Held {
   FirstBytes<Plugin, has_const_step<Plugin> && !keeps_only_caches_of<Plugin>> first;
 };
 
-// Members that step() changes are state that a snapshot, a restore and a swap lose.
-inline void warn_of_state(const muster_host* host, const char* why, const char* also) {
-  warn(host, "self",
-       std::string("its step() ") + why + ": what it keeps in members is lost where a run is restored or a plugin " +
-           "swapped; expected state in a table, s.write<State>(\"self/state\") and k.last(state), and " + also +
-           "; or, where members hold only what can be computed again, static constexpr bool keeps_only_caches = true");
-}
-
 template <class Plugin>
 void* create(const muster_host* host) {
   Held<Plugin>* made = nullptr;
@@ -339,6 +310,15 @@ void* create(const muster_host* host) {
     made = new Held<Plugin>(host, setup);
     if (!has_const_step<Plugin> && !keeps_only_caches_of<Plugin>)
       warn_of_state(host, "is not const", "void step(const Step& k) const");
+    const auto has_any = [](std::initializer_list<const void*> parts) {
+      for (const void* part : parts)
+        if (part) return true;
+      return false;
+    };
+    // A law, a draw and the like have functions of their own that take the parameters.
+    const bool is_plain =
+        !has_any({cause_of<Plugin>, draw_of<Plugin>, law_of<Plugin>, clip_of<Plugin>, burst_of<Plugin>});
+    if (const char* name = is_plain ? setup.unused() : nullptr) warn_of_unused(host, name);
   });
   return made;
 }

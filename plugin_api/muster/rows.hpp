@@ -74,8 +74,26 @@ constexpr std::size_t columns_of(...) {
   return sizeof(Row) / sizeof(double);
 }
 
+template <class Row, class = void>
+constexpr bool has_columns = false;
+template <class Row>
+inline constexpr bool has_columns<Row, std::void_t<decltype(Row::columns)>> = true;
+
+// The names of a row type's columns; null where it has none, of which check_row_type() speaks.
+template <class Row>
+constexpr const char* column_names() {
+  if constexpr (has_columns<Row>)
+    return Row::columns;
+  else
+    return nullptr;
+}
+
 template <class Row>
 constexpr void check_row_type() {
+  static_assert(
+      has_columns<Row>,
+      "a row type names its columns, one for each of its doubles, with units: struct State { static constexpr "
+      "const char* columns = \"count x[m]\"; double count, x; };");
   constexpr bool only_doubles = has_only_doubles<Row>();
   static_assert(
       only_doubles,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "description/world_robots.hpp"
+#include "robot_model.hpp"
 
 namespace {
 
@@ -44,7 +45,11 @@ struct ControlVelocity3d {
     const WorldRobots robots(s, description::Meshes::skip);
     const double model = s.param("robot") + 1;
     const auto* drive = robots.quadrotor_of(model);
-    if (!drive) throw BadInput("the robot has no rotors: its model has no <muster><quadrotor .../></muster>");
+    if (!drive)
+      throw BadInput(model_in_words(s) + " has no rotors (<muster>, <quadrotor>) and does not fly; expected " +
+                     (robots.drive_of(model) || robots.legs_of(model) ? "<control.waypoint/>, which drives"
+                                                                      : "rotors in its model") +
+                     or_a_model(s, "<quadrotor", "flies"));
     mass = whole_mass(*robots.of(model)).mass;
     drag = drive->hover_drag(mass * gravity);
   }

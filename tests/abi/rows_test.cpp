@@ -43,7 +43,12 @@ struct Named {
 };
 const char* Named::columns = "x";
 
+struct Nameless {
+  double x;
+};
+
 TEST(RowTypes, HaveOneDoubleForEachColumn) {
+  static_assert(detail::has_columns<Few> && detail::has_columns<Named> && !detail::has_columns<Nameless>);
   EXPECT_EQ(detail::column_count("v[m/s] w[rad/s]"), 2u);
   EXPECT_EQ(detail::column_count("  torque[N*m]  range[m]*682~ payload{} tx:endpoint? "), 685u);
   EXPECT_EQ(detail::column_count("azimuth[rad] gain[dBi] ."), 2u);

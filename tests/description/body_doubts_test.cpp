@@ -9,6 +9,7 @@ namespace muster::description {
 namespace {
 
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using Texts = std::vector<std::string>;
@@ -67,7 +68,8 @@ TEST(BodyDoubts, AWheelOnEnd) {
 
 TEST(BodyDoubts, SizesInMillimetres) {
   EXPECT_THAT(warnings_of(cart("500 300 100", "-0.05 0 0.2", "0.1", caster)),
-              Contains(":2: link 'base': a shape of 500 x 300 x 100 m; are these millimetres?"));
+              ElementsAre(":2: link 'base': a shape of 500 x 300 x 100 m; are these millimetres? expected metres, here "
+                          "0.5 x 0.3 x 0.1 m, and all origins, radii and distances of the model alike"));
   EXPECT_THAT(warnings_of(cart("0.5 0.3 0.1", "-50 0 0.2", "0.1", caster)),
               Contains(":2: link 'base': its centre of mass is 49.75 m off its collision shapes; are these "
                        "millimetres?"));

@@ -167,6 +167,20 @@ TEST(Mjcf, WhatIsNotTakenIsListed) {
                   "drive has its own), stiffness of <joint>"));
 }
 
+// Physics of the world, and a mass for the whole: a run has its own.
+TEST(Mjcf, OptionsOfTheWholeAreListed) {
+  const auto said = [](const std::string& before) { return of_body("<geom size='0.1'/>", before).warnings; };
+  EXPECT_THAT(said("<option gravity='0 0 -9.81' solver='CG' iterations='5'/>"), testing::IsEmpty());
+  EXPECT_THAT(
+      said("<option gravity='0 0 -1.62' timestep='0.002'/><compiler settotalmass='10'/>"),
+      testing::ElementsAre(testing::EndsWith(
+          "of this MuJoCo model are not taken: gravity=\"0 0 -1.62\" of <option> (a world has 9.81 m/s2 "
+          "downwards), settotalmass of <compiler>, timestep of <option> (expected step=\"0.002\" of the physics "
+          "in the world)")));
+  EXPECT_THAT(said("<option><flag gravity='disable'/></option>"),
+              testing::ElementsAre(testing::HasSubstr("not taken: gravity of <option>")));
+}
+
 TEST(Mjcf, ARangeWithinATurnOfRadiansIsAskedAbout) {
   const auto warnings = [](const std::string& compiler, const std::string& range) {
     const Files files;

@@ -1,4 +1,5 @@
 // What a refusal of a URDF says to write, where that follows from other figures of the file.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "description/robot.hpp"
@@ -67,6 +68,14 @@ TEST(UrdfRemedy, ABodyThatWeighsNothingIsTold) {
       std::string::npos);
   const std::string held = massive("m") + "<joint name='f' type='fixed'><parent link='a'/><child link='m'/></joint>\n";
   EXPECT_EQ(warnings("<link name='a'>" + box + wheel + held).find("weighs nothing"), std::string::npos);
+}
+
+TEST(UrdfRemedy, AGeometryHasOneShape) {
+  EXPECT_THAT(
+      refusal_of("<link name='a'><collision><geometry><box size='1 1 1'/>\n<sphere radius='1'/></geometry>"
+                 "</collision></link>\n"),
+      testing::HasSubstr("link 'a': <geometry> has a <box> and a <sphere>, of which URDF reads the first alone; "
+                         "expected one shape, and another <collision> for each more"));
 }
 
 TEST(UrdfRemedy, ALinkIsNoJoint) {

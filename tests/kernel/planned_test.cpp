@@ -141,7 +141,8 @@ TEST_F(Planned, AStateThatIsSetIsToldWithAParameterOfThisWorld) {
   EXPECT_EQ(
       error_of([&] { run(two_robots + adder + steering + "<at t='2'><set path='robot/a/pose/x' value='5'/></at>\n"); }),
       "world.xml:6:22: \"robot/a/pose/x\" is a state, which plugins write, and no parameter; expected a "
-      "parameter, such as driver/add, or <leave> and a <robot> that joins at another place");
+      "parameter, such as driver/add; to put the robot elsewhere, in an <at>: <leave robot=\"a\"/>, <robot "
+      "name=\"a_2\" model=\"...\" at=\"X Y Z\"/>, which joins there, and a controller with robot=\"a_2\"");
 }
 
 // In place of `adder`: moves one robot.

@@ -46,6 +46,22 @@ TEST_F(LibraryTest, LoadsAPluginByItsId) {
   EXPECT_STREQ(plugin.params[0].name, "size");
 }
 
+// A constant is none of it, though it stands in a section that is written: its addresses are.
+TEST_F(LibraryTest, WarnsOfCallsThatNoRunRepeats) {
+  const auto of = [&](const std::string& id) { return Library::load(id, std::nullopt, {zoo}, {})->doubts(); };
+  EXPECT_THAT(
+      of("zoo.restless"),
+      testing::ElementsAre(
+          StartsWith("it calls rand(), whose numbers do not follow the world's seed, so that no run repeats "
+                     "another; expected a stream"),
+          StartsWith("it calls std::chrono::system_clock::now(), the clock of the computer, so that no run "
+                     "repeats another; expected the time of the run, k.time()"),
+          StartsWith("it calls nanosleep(), as std::this_thread::sleep_for() does, which holds up the whole run"),
+          StartsWith("its step() keeps \"count\" in a static variable, which all instances share, and which is "
+                     "lost where a run is restored or a plugin swapped; expected state in a table")));
+  EXPECT_THAT(of("zoo.good"), testing::IsEmpty());
+}
+
 TEST_F(LibraryTest, TakesAPluginInPlainCWithTwoRevisionsInOrder) {
   const auto library = Library::load("zoo.plain", std::nullopt, {zoo}, {});
   ASSERT_EQ(library->plugins().size(), 2u);

@@ -192,6 +192,7 @@ TEST(Registration, RefusesBadDeclarations) {
   EXPECT_EQ(choice(nullptr), "has no choices");
   EXPECT_EQ(choice("a||c"), "has an empty choice in \"a||c\"");
   EXPECT_EQ(choice("a|b|a"), "has a choice twice in \"a|b|a\"");
+  EXPECT_EQ(choice("slow,fast"), "has one choice, \"slow,fast\"; expected them with | between, such as \"slow|fast\"");
   EXPECT_EQ(choice("a|b"), "has the default 2, which is no place in \"a|b\"");
 }
 

@@ -146,6 +146,17 @@ bool is_moved_frame(const LinkModel& model, double dx, double dy) {
   return static_cast<double>(outside) <= most_outside * static_cast<double>(ends);
 }
 
+// 0.01 or 0.001 where that times the data's place of a station is its place in the world, so that the data are in
+// centimetres or millimetres; else 0. A station at the origin has no scale.
+double scale_between(const End& data, const Mount& world) {
+  constexpr double near = 0.1;  // of the way from the origin
+  for (const double factor : {0.01, 0.001}) {
+    const double x = factor * data.x, y = factor * data.y, way = std::hypot(x, y);
+    if (way > 0 && std::hypot(x - world.x, y - world.y) <= near * way) return factor;
+  }
+  return 0;
+}
+
 // "x_column - 150" of an import map.
 std::string shifted(const std::string& column, double by) {
   return column + "[m] = COLUMN " + (by < 0 ? "+ " : "- ") + print_real(std::abs(by));
@@ -185,6 +196,16 @@ std::vector<std::string> check_stations(const LinkModel& model, const Dataset& d
       const std::string there = place(mount.x, mount.y) + " in the world",
                         what = quote(name) + " stands at " + place(end.x, end.y) + " in the data and at " + there;
       if (turned < 0.01) throw invalid(data.table->place(row, 0), what + ": x and y are exchanged");
+      if (const double scale = scale_between(end, mount); scale > 0 && !moves(model, end.radio, 0.5)) {
+        const bool is_sender = &end == &model.ends()[row][0];
+        const std::string from = is_sender ? "tx" : "rx", unit = scale == 0.01 ? "centimetres" : "millimetres";
+        const auto column = data.table->find(from + "_x");
+        notes.push_back((column ? data.table->header_place(*column) : data.table->place(row, 0)).text() + ": " + what +
+                        of_world(declared, name) + ", which is the same place in " + unit +
+                        "; are the data's? expected metres (a map of muster import: " + from +
+                        "_x[m] = " + print_real(scale) + "*COLUMN, " + from + "_y[m] alike)");
+        continue;
+      }
       if (!moves(model, end.radio, 0.5)) {
         notes.push_back(data.table->place(row, 0).text() + ": " + what + of_world(declared, name) +
                         "; the data's place is used; where the data are right, correct the world to at=\"" +

@@ -75,6 +75,28 @@ TEST(CommandWords, ANameOfAnotherKind) {
   EXPECT_THAT(said({"run", "world.xml", "--record", "robot/base/pose", "--out", "out"}), HasSubstr("base"));
 }
 
+// Parameters are of plugins: of a robot, those of the controller that drives it.
+TEST(CommandWords, AParameterOfARobotIsThatOfItsController) {
+  const ProgramFolder folder;
+  folder.write("world.xml",
+               "<world dt=\"0.1\" until=\"1\">\n<robot name=\"rover\" at=\"0 0 0\"/>\n"
+               "<physics.planar through_walls=\"true\"/><robots.drive/>\n"
+               "<control.steady name=\"driver\" robot=\"rover\" v=\"0.1\"/>\n</world>");
+  expect_error(folder.muster({"run", "world.xml", "--set", "rover/v=0.2"}), 2,
+               "\"rover\" is a robot (world.xml:2:1) and has no parameters; did you mean \"driver/v\", of its "
+               "controller control.steady?");
+  expect_error(folder.muster({"run", "world.xml", "--set", "rover/speed=0.2"}), 2,
+               "\"rover\" is a robot (world.xml:2:1) and has no parameters; its controller control.steady has "
+               "driver/v, driver/w");
+}
+
+TEST(CommandWords, ACheckStandsAlone) {
+  expect_error(
+      ProgramFolder().muster({"diagnose", "world.xml", "--data", "d.csv", "--check", "out"}), 2,
+      "muster diagnose: --check goes with --plugins and --json alone, as its folder has the world and the data; "
+      "expected muster diagnose --check out; see muster diagnose --help");
+}
+
 TEST(CommandWords, AWorldInThePlaceOfADiagnosis) {
   const ProgramFolder folder;
   folder.write("lab/world.xml", "<world dt=\"0.1\" until=\"1\"/>");

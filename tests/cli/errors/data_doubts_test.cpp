@@ -56,6 +56,27 @@ TEST(DataDoubts, Centimetres) {
               HasSubstr("are they centimetres? expected metres"));
 }
 
+// A robot drives around the house, too; and a station that stands where the world has it, but for the unit, moves
+// nowhere.
+TEST(DataDoubts, CentimetresAroundTheWallsAndOfAStation) {
+  const ProgramFolder folder;
+  std::string world = walled;
+  const std::string place = "at=\"0 0 1\"";
+  folder.write("world.xml", world.replace(world.find(place), place.size(), "at=\"0 1 1\""));
+  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n";
+  for (int i = 0; i < 60; ++i)
+    text += fmt::format("{},base,rover,0,100,100,{},{},100,{:.2f}\n", i, 100 + 40 * i, i % 2 ? 850 : -850,
+                        -60 + (i * 7 % 5 - 2) * 0.4);
+  folder.write("data.csv", text);
+  const std::string said = folder.muster({"features", "world.xml", "--data", "data.csv"}).out;
+  EXPECT_THAT(said, HasSubstr("and lie in it as centimetres; are they centimetres? expected metres"));
+  EXPECT_THAT(said,
+              HasSubstr("data.csv:1:12: \"base\" stands at x = 0, y = 100 m in the data and at x = 0, y = 1 m in the "
+                        "world (world.xml:5:1), which is the same place in centimetres; are the data's? expected "
+                        "metres (a map of muster import: tx_x[m] = 0.01*COLUMN, tx_y[m] alike)"));
+  EXPECT_THAT(said, Not(HasSubstr("correct the world")));
+}
+
 // A circle around the base: rounded places leave rounding errors of the distance, of which nothing can be told.
 TEST(DataDoubts, OneDistanceSettlesNoExponent) {
   const std::string said = said_of_data([i = 0](Reading& r) mutable {
@@ -100,9 +121,10 @@ TEST(DataDoubts, NamesExchanged) {
 TEST(DataDoubts, FeaturesAsksTheSame) {
   EXPECT_THAT(
       said_of_data([](Reading& r) { r.x *= 100, r.y *= 100; }, "", "0,0,1", "base,rover", "features"),
-      HasSubstr("\nnote: places of \"rover\" reach from x = 100, y = -300 to x = 1870, y = 300 m, far beyond the "
-                "plan of the walls, 22 x 8 m, and lie in it as centimetres; are they centimetres? expected metres "
-                "(a map of muster import: rx_x[m] = 0.01*COLUMN)\n"));
+      HasSubstr(
+          "data.csv:1:36: places of \"rover\" reach from x = 100, y = -300 to x = 1870, y = 300 m, far beyond the "
+          "plan of the walls, 22 x 8 m, and lie in it as centimetres; are they centimetres? expected metres "
+          "(a map of muster import: rx_x[m] = 0.01*COLUMN, rx_y[m] alike)\n"));
 }
 
 TEST(DataDoubts, Degrees) {
@@ -111,12 +133,14 @@ TEST(DataDoubts, Degrees) {
 }
 
 TEST(DataDoubts, Heights) {
-  EXPECT_THAT(said_of_data([](Reading& r) { r.z = 400; }),
-              HasSubstr("note: \"rover\" stands 400 m high, and the walls end at 2.7 m; are these millimetres?"));
+  EXPECT_THAT(
+      said_of_data([](Reading& r) { r.z = 400; }),
+      HasSubstr("data.csv:1:52: \"rover\" stands 400 m high, and the walls end at 2.7 m; are these millimetres?"));
   EXPECT_THAT(
       said_of_data([](Reading& r) { r.z = -0.4; }),
-      HasSubstr("note: \"rover\" is 0.4 m or more below the ground (z = 0), throughout; is z down in the data, as "
-                "in PX4 (NED)? expected metres up (a map of muster import: rx_z[m] = -1*COLUMN)"));
+      HasSubstr(
+          "data.csv:1:52: \"rover\" is 0.4 m or more below the ground (z = 0), throughout; is z down in the data, as "
+          "in PX4 (NED)? expected metres up (a map of muster import: rx_z[m] = -1*COLUMN)"));
 }
 
 TEST(DataDoubts, Bel) {

@@ -110,6 +110,27 @@ TEST(Fault16, ATextIsThatOfATextParameter) {
                "not declared in params; did you mean \"size\"? declared are size");
 }
 
+TEST(Fault16, ATextIsNoNumber) {
+  expect_error(run_toy(ProgramFolder(), "<test.value_of_text/>"), 3,
+               "world.xml:1:36: test.value_of_text (test.value_of_text): create failed: parameter \"gear\" is a text, "
+               "and no number; expected s.text(\"gear\"), in the constructor");
+}
+
+TEST(Fault16, AnAttributeThatNoCallLooksAtHasNoEffect) {
+  const ProgramFolder folder;
+  const std::string unused =
+      "attribute \"size\" has no effect: the plugin's constructor never looks at it; expected "
+      "s.value(\"size\") there, and k[...] of it in step()";
+  EXPECT_THAT(run_toy(folder, "<test.good size=\"2\"/>").out, testing::HasSubstr(unused));
+  EXPECT_THAT(run_toy(folder, "<test.good/>").out, testing::Not(testing::HasSubstr("has no effect")));
+}
+
+TEST(Fault16, AReferenceToRowsOfNoSetIsThePlugins) {
+  expect_error(run_toy(ProgramFolder(), "<robot name=\"rover\" at=\"0 0 0\"/><test.refers whose=\"rover\"/>"), 3,
+               "world.xml:1:68: test.refers/1: its parameter \"whose\" refers to rows of \"robots\", which is no set; "
+               "expected reference(\"whose\", \"robot\", ...) in its source");
+}
+
 TEST(Fault16, WhatTheUserGaveWrongIsTheUsers) {
   const ProgramFolder folder;
   expect_error(run_toy(folder, "<test.refuses/>"), 2,

@@ -56,6 +56,10 @@ TEST(Fault5, HabitsOfSdfAndRos) {
       world_of(R"(<station name="rover" at="0 0 1"/><record table="/rover/traffics"/>)"),
       "world.xml:1:70: record: there is no table \"/rover/traffics\"; did you mean \"radio/rover/traffic\"? expected "
       "SET/ROW/QUANTITY, or SET/*/QUANTITY for all rows");
+  folder.expect_refused(
+      world_of(R"(<station name="rover" at="0 0 1"/><record table="radio/rover/traffic/frames"/>)"),
+      "world.xml:1:70: record: there is no table \"radio/rover/traffic/frames\"; \"frames\" is taken for a column of "
+      "it, and tables are named whole; expected \"radio/rover/traffic\"");
 }
 
 TEST(Fault5, APathThatStopsAtAnElement) {

@@ -144,6 +144,10 @@ TEST(Idle, WayPointsThatAreNoWay) {
       way("0,-1\n0,2\n"),
       "warning: way.csv:3:1: the way to this way point leads through wall \"north\" (world.xml:2:34), which stops "
       "the robot; expected way points around it, or <control.navigate>, which finds a way\n");
+  EXPECT_EQ(
+      way("47.3977,-8.5456\n47.3978,-8.5455\n47.3979,-8.5452\n"),
+      "warning: way.csv:2:1: all 3 way points lie within 0.001 m, and 48 m from the start; are these latitude and "
+      "longitude? expected metres of the plan: 0.00001 degrees of latitude are 1.1 m to the north\n");
   EXPECT_THAT(way("0,2\n", "planar through_walls=\"true\""), testing::Not(HasSubstr("way point")));
   EXPECT_EQ(way("0,-1\n7,-1\n7,2\n"), "");
 }

@@ -242,6 +242,12 @@ TEST(FirstHour, AWayInSpaceOfARobotOnTheGround) {
                "(world.xml:1:36) is on the ground and does not fly; expected <control.waypoint/>, or a model that "
                "flies: hummingbird");
   EXPECT_EQ(checked("hummingbird").exit, 0);
+  folder.write("world.xml", world_of("<robot name=\"rover\" model=\"scarab\" at=\"0 0 0\"/><physics.simbody/>\n"
+                                     "<control.velocity3d robot=\"rover\"/>"));
+  expect_error(folder.muster({"check", "world.xml"}), 2,
+               "world.xml:2:1: control.velocity3d (control.velocity3d): the model \"scarab\" of robot \"rover\" "
+               "(world.xml:1:36) has no rotors (<muster>, <quadrotor>) and does not fly; expected <control.waypoint/>, "
+               "which drives, or a model that flies: hummingbird");
 }
 
 TEST(FirstHour, WhatComesAfterTheEnd) {

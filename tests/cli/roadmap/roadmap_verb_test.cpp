@@ -116,6 +116,13 @@ TEST(RoadmapVerb, RefusesWordsThatItCannotUse) {
   };
   refused({}, "world.xml: the world has 2 robots; expected --robot NAME or --radius R");
   refused({"--robot", "oen"}, "--robot: no robot is called \"oen\"; expected one of one, two; did you mean \"one\"?");
+  refused({"--radius", "30"},
+          "--radius: 30 m, with which no robot of the world has room where it stands; is this in centimetres? expected "
+          "--radius 0.3");
+  refused(
+      {"--radius", "300"},
+      "--radius: 300 m, with which no robot of the world has room where it stands; is this in millimetres? expected "
+      "--radius 0.3");
   refused({"--radius", "-1"}, "--radius: -1 m; expected metres from 0.001 to 1000");
   refused({"--robot", "one", "--path", "way.csv"}, "--path needs a goal; expected --to X Y beside it");
   refused({"--radius", "0.2", "--to", "1", "1"},

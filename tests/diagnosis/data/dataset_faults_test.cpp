@@ -35,7 +35,13 @@ TEST(DatasetFaults, LevelsThatNoReceiverGives) {
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,31\n"),
             "d.csv:3:15: row 2: an rssi of 31 dBm is over +30 dBm; expected a level in dBm, which is mostly negative");
   EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,-50\n1,a,b,0,0,2,0,-500\n"),
-            "d.csv:3:15: row 2: an rssi of -500 dBm is below thermal noise; expected a level in dBm");
+            "d.csv:3:15: row 2: an rssi of -500 dBm is below thermal noise; expected a level in dBm; is -500 a "
+            "mark for nothing received? then leave the cell empty (in a map of muster import: none rssi = -500)");
+  EXPECT_EQ(
+      reading(header + "0,a,b,0,0,1,0,-999\n1,a,b,0,0,2,0,-51\n2,a,b,0,0,3,0,-999\n"),
+      "d.csv:2:15: row 1: an rssi of -999 dBm is below thermal noise; expected a level in dBm; 2 rows have it: is "
+      "-999 a mark for nothing received? then leave these cells empty (in a map of muster import: none rssi = "
+      "-999)");
 }
 
 TEST(DatasetFaults, ALogThatIsJoinedToItselfOrHasOneTime) {

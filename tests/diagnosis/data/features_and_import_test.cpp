@@ -177,6 +177,9 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\", and SCALE*COLUMN "
             "where that "
             "differs");
+  EXPECT_EQ(failing(with("tx_y[m] =", "rx_yaw[deg] = heading\ntx_y[m] =")),
+            "m.map:9: column \"rx_yaw[deg]\" has the wrong unit; expected \"rx_yaw[rad]\": rx_yaw[rad] = "
+            "0.017453292519943295*heading");
   EXPECT_EQ(failing(with("tx_y[m] =", "tx_y =")),
             "m.map:9: column \"tx_y\" has no unit; expected \"tx_y[m]\", and SCALE*COLUMN where that differs");
   EXPECT_EQ(failing(with("tx_y[m] =", "px = rx_x[m]\ntx_y[m] =")),

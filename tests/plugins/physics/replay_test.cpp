@@ -95,6 +95,22 @@ std::vector<std::string> warnings(const std::string& csv) {
   return result;
 }
 
+// Columns that are not read are many; one that has the name of what lacks is most likely that.
+TEST(Replay, AHeadingByAnotherNameIsToldAsNotRead) {
+  const auto told = [](const std::string& columns) {
+    Folder folder;
+    const Simulation run = replayed(folder, columns + "\n0,a,0,0,0\n1,a,1,0,0\n");
+    std::string result;
+    for (const auto& event : run.events())
+      if (const auto at = event.message.find("course.csv:"); at != std::string::npos)
+        result += event.message.substr(at);
+    return result;
+  };
+  EXPECT_EQ(told("t[s],robot,x[m],y[m],theta[rad]"),
+            "course.csv:1:22: column \"theta\" is not read; is it yaw? expected the header \"yaw[rad]\"");
+  EXPECT_EQ(told("t[s],robot,x[m],y[m],battery[V]"), "");
+}
+
 TEST(Replay, DegreesAndJumpsAreWarnedOfOnce) {
   const std::string head = "t[s],robot,x[m],y[m],yaw[rad]\n", row = ".csv:3:1: robot 'a': ";
   EXPECT_EQ(warnings(head + "0,a,0,0,0\n1,a,1,0,90\n2,a,1,1,180\n"),

@@ -48,6 +48,10 @@ TEST(Waypoint, ColumnsThatNobodyReadsAreRefused) {
   };
   EXPECT_EQ(error("control.waypoint", "x[m],y[m],tme\n3,0,1\n"),
             "path.csv:1:11: column \"tme\" means nothing here; expected one of x, y");
+  EXPECT_EQ(
+      error("control.waypoint", "x[m],y[m],z[m]\n3,0,1\n"),
+      "path.csv:1:11: column \"z\" means nothing here; these places are on the ground; expected x, y without z, or "
+      "<control.path3d/>, by which a robot flies along x[m],y[m],z[m]");
   EXPECT_EQ(error("control.path3d", "t[s],x[m],y[m],z[m]\n1,3,0,1\n"),
             "path.csv:1:1: column \"t\" means nothing here; these places have no times, which follow from the speed; "
             "expected x, y, z without t (poses over time carry a robot by physics.replay)");

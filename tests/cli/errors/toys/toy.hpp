@@ -17,6 +17,9 @@
 #ifndef TOY_EACH_STEP
 #define TOY_EACH_STEP
 #endif
+#ifndef TOY_MORE  // ", flag(...)": a parameter
+#define TOY_MORE
+#endif
 #ifndef TOY_DESTROY
 #define TOY_DESTROY
 #endif
@@ -52,7 +55,7 @@ struct Cell {
 struct Toy {
   static constexpr auto id = TOY_ID, summary = "goes wrong in one way";
   static constexpr auto phase = TOY_PHASE;
-  static constexpr muster::Param params[] = {muster::real("size", 1, 0, 10, "m", "how tall it is").free()};
+  static constexpr muster::Param params[] = {muster::real("size", 1, 0, 10, "m", "how tall it is").free() TOY_MORE};
   explicit Toy(muster::Setup& setup) : cell(setup.write<Cell>("self/cell")) { TOY_CREATE; }
   ~Toy() noexcept(false) { TOY_DESTROY; }
   static constexpr bool keeps_only_caches = TOY_KEEPS_CACHES;
