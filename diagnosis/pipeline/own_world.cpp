@@ -230,8 +230,7 @@ class Judge {
     const VectorXd y = rows.mean(world.rest);
     const MatrixXd design = rows.mean(world.design);
     const noise::Fit fit = noise::fit_families(field, y, design, s_.options.prior).front();
-    const noise::Whitened at = noise::whitened(noise::Whitener(field, fit.covariance), y, design, s_.options.prior);
-    return {at.basis.log_determinant() - fit.value, fit.covariance};
+    return {fit.log_likelihood(), fit.covariance};
   }
 
   // Moves the place by generalised least squares; its standard errors.

@@ -19,17 +19,8 @@ Eigen::Matrix4d bounded(const Eigen::Matrix4d& information) {
          solver.eigenvectors().transpose();
 }
 
-}  // namespace
-
-Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, Family family) {
-  const double variance = std::max(basis_of(design).rest(y).squaredNorm() / static_cast<double>(y.size()), 0.1);
-  return {family, {std::log(0.7 * variance), std::log(1.5) + log_scale_of(family), std::log(0.3 * variance), -1.5}};
-}
-
-Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
-        const Covariance& start, int steps, const Theta& moves) {
-  Covariance at{start.family, prior.inside(start.theta)};
-  Objective here = objective(field, at, y, design, prior);
+Fit fit_from(Covariance at, Objective here, const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
+             const Prior& prior, int steps, const Theta& moves) {
   for (int step = 0; step < steps; ++step) {
     const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
     const Theta gradient = moves.cwiseProduct(here.gradient), whole = -curvature.ldlt().solve(gradient);
@@ -46,13 +37,32 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
     }
     if (!better) break;
   }
-  return {at, here.value, bounded(here.information)};
+  return {at, here.value, bounded(here.information), here.log_determinant};
+}
+
+}  // namespace
+
+Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, Family family) {
+  const double variance = std::max(basis_of(design).rest(y).squaredNorm() / static_cast<double>(y.size()), 0.1);
+  return {family, {std::log(0.7 * variance), std::log(1.5) + log_scale_of(family), std::log(0.3 * variance), -1.5}};
+}
+
+Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+        const Covariance& start, int steps, const Theta& moves) {
+  const Covariance at{start.family, prior.inside(start.theta)};
+  return fit_from(at, objective(field, at, y, design, prior), field, y, design, prior, steps, moves);
+}
+
+Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+        const WhitenerSlopes& start, int steps) {
+  return fit_from(start.whitener().covariance(), objective(start, y, design, prior), field, y, design, prior, steps,
+                  Theta::Ones());
 }
 
 Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
-                    const Covariance& start, int steps) {
+                    const WhitenerSlopes& start, int steps) {
   Fit best = fit(field, y, design, prior, start, steps);
-  if (fixed_share(start.family) == 0) return best;
+  if (fixed_share(best.covariance.family) == 0) return best;
   for (const bool less : {true, false}) {
     while (true) {
       const Family family = best.covariance.family, next = less ? with_less_fixed(family) : with_more_fixed(family);

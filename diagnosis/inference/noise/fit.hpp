@@ -11,6 +11,10 @@ struct Fit {
   Covariance covariance;
   double value = 0;                                         // of the objective
   Eigen::Matrix4d curvature = Eigen::Matrix4d::Identity();  // of the objective
+  double log_determinant = 0;                               // of the whitened design's triangle
+
+  // nats, with the design's coefficients at their best; the prior of theta included.
+  double log_likelihood() const { return log_determinant - value; }
 };
 
 // Start of a fit without prior knowledge: seven tenths of the least-squares variance belong to the field.
@@ -19,9 +23,12 @@ Covariance default_start(const Eigen::VectorXd& y, const Eigen::MatrixXd& design
 // `moves`: 1 for entries of theta that are fitted, 0 for those held at the start.
 Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
         const Covariance& start, int steps = 12, const Theta& moves = Theta::Ones());
+// The same from a start within the prior's limits at which the field is factorised.
+Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+        const WhitenerSlopes& start, int steps);
 // The same over the start's fixed share and the shares beside it, as far as the value falls. As fit() without one.
 Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
-                    const Covariance& start, int steps);
+                    const WhitenerSlopes& start, int steps);
 // Entries of theta that no model states: the variance of one reading, and the correlation between groups.
 inline const Theta unstated{0, 0, 1, 1};
 

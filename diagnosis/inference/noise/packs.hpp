@@ -75,6 +75,28 @@ struct [[gnu::may_alias]] Pack {
     for (int k = 0; k < parts; ++k) result.part[k] = -part[k];
     return result;
   }
+
+  // Lanes of which something holds: all bits set, or none.
+  struct Within {
+    decltype(Part{} <= Part{}) part[parts];
+
+    MUSTER_INLINE Within& operator&=(const Within& other) {
+      for (int k = 0; k < parts; ++k) part[k] &= other.part[k];
+      return *this;
+    }
+    MUSTER_INLINE bool all() const {
+      bool result = true;
+      for (int lane = 0; lane < number; ++lane) result &= part[lane / each][lane % each] != 0;
+      return result;
+    }
+  };
+  MUSTER_INLINE static Within everywhere() { return at_most(Pack{}, Pack{}); }
+  // None of a lane that is not a number.
+  MUSTER_INLINE friend Within at_most(const Pack& a, const Pack& b) {
+    Within result;
+    for (int k = 0; k < parts; ++k) result.part[k] = a.part[k] <= b.part[k];
+    return result;
+  }
 };
 
 }  // namespace

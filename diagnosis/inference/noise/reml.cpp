@@ -30,9 +30,9 @@ Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eige
   return result;
 }
 
-Objective objective(const Field& field, const Covariance& covariance, const Eigen::VectorXd& y,
-                    const Eigen::MatrixXd& design, const Prior& prior) {
-  const WhitenerSlopes slopes(field, covariance);
+Objective objective(const WhitenerSlopes& slopes, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
+                    const Prior& prior) {
+  const Covariance& covariance = slopes.whitener().covariance();
   const Whitened at = whitened(slopes.whitener(), y, design, prior);
   const Basis& basis = at.basis;
   const Eigen::VectorXd beta = basis.coefficients(basis.q.transpose() * at.y, design.cols());
@@ -40,7 +40,7 @@ Objective objective(const Field& field, const Covariance& covariance, const Eige
   const Eigen::MatrixXd turned = basis.r.triangularView<Eigen::Upper>().solve(basis.q.transpose()).transpose();
   const Theta of_design =
       slopes.contracted(hstack(design(Eigen::all, basis.kept), y - design * beta), hstack(turned, at.residual));
-  Objective result{at.value, of_design - slopes.of_log_scale(), slopes.information()};
+  Objective result{at.value, of_design - slopes.of_log_scale(), slopes.information(), basis.log_determinant()};
   const PriorTerm distance = on_distance(covariance, prior), share = on_share(covariance, prior);
   result.gradient[1] += distance.precision * distance.offset;
   result.gradient[3] += share.precision * share.offset;

@@ -23,6 +23,7 @@ struct Objective {
   double value = 0;
   Theta gradient = Theta::Zero();
   Eigen::Matrix4d information = Eigen::Matrix4d::Zero();  // Fisher information, with the prior's curvature
+  double log_determinant = 0;                             // of the whitened design's triangle
 };
 
 // y and the design, whitened.
@@ -36,7 +37,11 @@ Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eige
                   const Prior& prior);
 
 // With the derivatives for Fisher scoring.
-Objective objective(const Field& field, const Covariance& covariance, const Eigen::VectorXd& y,
-                    const Eigen::MatrixXd& design, const Prior& prior);
+Objective objective(const WhitenerSlopes& slopes, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
+                    const Prior& prior);
+inline Objective objective(const Field& field, const Covariance& covariance, const Eigen::VectorXd& y,
+                           const Eigen::MatrixXd& design, const Prior& prior) {
+  return objective(WhitenerSlopes(field, covariance), y, design, prior);
+}
 
 }  // namespace muster::noise

@@ -32,10 +32,8 @@ MUSTER_INLINE Lanes inverse_root(const Lanes& variance) {
 // x, but no more than the root of `square`. A stated correlation is not exactly that of a field, and its error may
 // exceed what is left of a row's variance; what others cannot predict, its nugget and the floor, is left in any case.
 MUSTER_INLINE Lanes at_most_root(Lanes x, const Lanes& square) {
-  bool fits = true;
-  for (int lane = 0; lane < lanes; ++lane) fits &= x[lane] * x[lane] <= square[lane];
-  if (fits) return x;
   for (int lane = 0; lane < lanes; ++lane) {
+    if (x[lane] * x[lane] <= square[lane]) continue;
     const double most = square[lane] > 0 ? __builtin_sqrt(square[lane]) : 0;
     x.set(lane, __builtin_copysign(__builtin_fmin(__builtin_fabs(x[lane]), most), x[lane]));
   }
@@ -65,43 +63,91 @@ MUSTER_INLINE Lanes covariance(const Neighbourhoods& n, long pair) {
   return n.near_variance * c.near + n.joint_variance * c.joint;
 }
 
+// A row of the factor: solves for its first `count` entries, whose own rows are in `root`. `left`: what they leave of
+// the row's variance, of which they never explain the `least`.
+MUSTER_INLINE void solve_bounded(Lanes* row, long count, const Lanes* root, long slots, Lanes& left,
+                                 const Lanes& least) {
+  for (long k = 0; k < count; ++k) {
+    const Lanes x = at_most_root(row[k] * root[k * slots + k], left - least);
+    row[k] = x;
+    left -= x * x;
+    for (long b = k + 1; b < count; ++b) row[b] -= x * root[b * slots + k];
+  }
+}
+
+// The same without the bound, two entries at once; false if it would have been needed somewhere.
+MUSTER_INLINE bool solve(Lanes* row, long count, const Lanes* root, long slots, Lanes& left, const Lanes& least) {
+  Lanes::Within within = Lanes::everywhere();
+  const auto solved = [&](long k) MUSTER_ALWAYS {
+    const Lanes x = row[k] * root[k * slots + k], square = x * x;
+    within &= at_most(square, left - least);
+    left -= square;
+    row[k] = x;
+    return x;
+  };
+  long k = 0;
+  for (; k + 1 < count; k += 2) {
+    const Lanes* below = root + (k + 1) * slots + k;
+    const Lanes x = solved(k);
+    row[k + 1] -= x * below[0];
+    const Lanes y = solved(k + 1);
+    for (long b = k + 2; b < count; ++b) {
+      below += slots;
+      row[b] = row[b] - x * below[0] - y * below[1];
+    }
+  }
+  if (k < count) solved(k);
+  return within.all();
+}
+
+// Covariances of a slot, or with all slots of the row itself, with the `count` slots before it.
+MUSTER_INLINE void look_up_row(const Neighbourhoods& n, long slot, Lanes* row) {
+  const long pairs = slot * (slot + 1) / 2;
+  for (long b = 0; b < slot; ++b) row[b] = covariance(n, pairs + b);
+}
+MUSTER_INLINE void look_up_own(const Neighbourhoods& n, Lanes* row) {
+  for (long a = 0; a < n.slots; ++a) row[a] = covariance(n, a * (a + 1) / 2 + a);
+}
+
 void factorise(const Neighbourhoods& n) {
   const long slots = n.slots;
   Lanes *const root = lanes_of(n.root), *const cross = lanes_of(n.cross), *const combination = lanes_of(n.combination);
   const Lanes *const nugget = lanes_of(n.nugget), *const present = lanes_of(n.present);
   const Lanes* const field = lanes_of(n.field);
   for (long a = 0; a < slots; ++a) {
-    const long pairs = a * (a + 1) / 2;
     Lanes* const row = root + a * slots;
-    for (long b = 0; b < a; ++b) row[b] = covariance(n, pairs + b);
-    Lanes own = present[a] * (field[a] + n.floor_variance - 1) + 1 + nugget[a];
+    const Lanes own = present[a] * (field[a] + n.floor_variance - 1) + 1 + nugget[a];
     const Lanes least = nugget[a] + n.floor_variance;
-    for (long k = 0; k < a; ++k) {
-      const Lanes x = at_most_root(row[k] * root[k * slots + k], own - least);
-      row[k] = x;
-      own -= x * x;
-      for (long b = a - 1; b > k; --b) row[b] -= x * root[b * slots + k];
+    Lanes left = own;
+    look_up_row(n, a, row);
+    if (!solve(row, a, root, slots, left, least)) {
+      left = own;
+      look_up_row(n, a, row);
+      solve_bounded(row, a, root, slots, left, least);
     }
-    row[a] = inverse_root(own);
-    cross[a] = covariance(n, pairs + a);
+    row[a] = inverse_root(left);
   }
-  const Lanes least = nugget[slots] + n.floor_variance;
-  Lanes variance = nugget[slots] + (field[slots] + n.floor_variance);
-  for (long k = 0; k < slots; ++k) {
-    const Lanes x = at_most_root(cross[k] * root[k * slots + k], variance - least);
-    cross[k] = x;
-    variance -= x * x;
-    for (long a = k + 1; a < slots; ++a) cross[a] -= x * root[a * slots + k];
+  const Lanes least = nugget[slots] + n.floor_variance, own = nugget[slots] + (field[slots] + n.floor_variance);
+  Lanes variance = own;
+  look_up_own(n, cross);
+  if (!solve(cross, slots, root, slots, variance, least)) {
+    variance = own;
+    look_up_own(n, cross);
+    solve_bounded(cross, slots, root, slots, variance, least);
   }
   const Lanes inverse_sd = inverse_root(variance);
   combination[slots] = inverse_sd;
   for (long a = 0; a < slots; ++a) combination[a] = -cross[a] * inverse_sd;
-  for (long a = slots - 1; a >= 0; --a) {
-    const Lanes* const row = root + a * slots;
+  long a = slots - 1;
+  for (; a >= 1; a -= 2) {  // two rows at once
+    const Lanes *const row = root + a * slots, *const next = row - slots;
     const Lanes x = combination[a] * row[a];
     combination[a] = x;
-    for (long b = 0; b < a; ++b) combination[b] -= row[b] * x;
+    const Lanes y = (combination[a - 1] - row[a - 1] * x) * next[a - 1];
+    combination[a - 1] = y;
+    for (long b = 0; b < a - 1; ++b) combination[b] = combination[b] - row[b] * x - next[b] * y;
   }
+  if (a == 0) combination[0] *= root[0];
 }
 
 struct Four {

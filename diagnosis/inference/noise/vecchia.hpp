@@ -111,6 +111,7 @@ class WhitenerSlopes {
   WhitenerSlopes(const Field& field, const Covariance& covariance);
 
   const Whitener& whitener() const { return whitener_; }
+  bool is_of(const Field& field) const { return field_ == &field; }
   const Theta& of_log_scale() const { return of_log_scale_; }
   // Fisher's information of theta in the rows (Guinness, Statistics and Computing 31, 2021).
   const Eigen::Matrix4d& information() const { return information_; }

@@ -102,8 +102,7 @@ double evidence_beside(const ModelState& state, const Eigen::MatrixXd& design, c
   const noise::Fit fit = state.fitted(both, state.fit.covariance, 4);
   const WhitenedModel rest = state.whitened_model(design, fit.covariance);
   const double by_a_multiple = rest.gain(columns) - gain_of(c, rest, columns);
-  return state.whitened_model(both, fit.covariance).at.basis.log_determinant() - fit.value - by_a_multiple / 2 +
-         state.evidence(c, 0, columns.cols(), c.refinement.any());
+  return fit.log_likelihood() - by_a_multiple / 2 + state.evidence(c, 0, columns.cols(), c.refinement.any());
 }
 
 std::vector<Alternative> alternatives_of(ModelState& state, const Term& term) {

@@ -32,10 +32,11 @@ const ScoredCandidate* same_entry(const std::vector<ScoredCandidate>& leads, con
 
 // Refines a cause at the covariance of this round; a gain from the refit-noise pass is kept.
 ScoredCandidate at_its_best(const ModelState& state, const WhitenedModel& model, const ScoredCandidate& plain,
-                            const ScoredCandidate* passing) {
+                            const ScoredCandidate* passing, RememberedLeads& known) {
   if (passing && passing->refined) return *passing;
   const ScoredCandidate& from = passing ? *passing : plain;
-  ScoredCandidate result = refined(state, model, from, false);
+  ScoredCandidate result =
+      known.worked_out(from, [&](const ScoredCandidate& lead) { return refined(state, model, lead, false); });
   if (!from.candidate().design.whole)
     result.gain = from.gain + std::max(0.0, result.gain - gain_of(from.candidate(), model, from.columns));
   result.log_p = state.log_p(from.candidate(), result.gain, from.candidate().design.width, true);
@@ -104,7 +105,7 @@ void prefer_simple(std::vector<ScoredCandidate>& pool, const WhitenedModel& mode
 std::vector<ScoredCandidate> compared(const ModelState& state, const WhitenedModel& model,
                                       const std::vector<ScoredCandidate>& passing,
                                       const std::vector<ScoredCandidate>& all,
-                                      const std::function<bool(const Candidate&)>& usable) {
+                                      const std::function<bool(const Candidate&)>& usable, RememberedLeads& known) {
   std::vector<ScoredCandidate> pool;
   double best_smooth = 1e300;
   for (const ScoredCandidate& lead : passing) {
@@ -118,7 +119,7 @@ std::vector<ScoredCandidate> compared(const ModelState& state, const WhitenedMod
     ++named;
     const ScoredCandidate* const passed = same_entry(passing, lead);
     if (!passed && lead.evidence <= best_smooth - thresholds::hopeless_name_nats) continue;
-    ScoredCandidate best = at_its_best(state, model, lead, passed);
+    ScoredCandidate best = at_its_best(state, model, lead, passed, known);
     if (best.log_p < state.threshold()) pool.push_back(std::move(best));
   }
   if (pool.empty()) pool = passing;

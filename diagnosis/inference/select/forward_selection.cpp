@@ -291,6 +291,7 @@ bool usable(const ModelState& state, const Blocked& blocked, const Candidate& c)
 struct ScoredModel {
   WhitenedModel model;
   std::vector<ScoredCandidate> all;
+  RememberedRound known;
 };
 
 ScoredModel scored_model(ModelState& state) {
@@ -299,7 +300,7 @@ ScoredModel scored_model(ModelState& state) {
   WhitenedModel model = state.whitened_model(design);
   state.renew_depending(model.coefficients(design.cols()));
   std::vector<ScoredCandidate> all = scored_candidates(state, model);
-  return {std::move(model), std::move(all)};
+  return {std::move(model), std::move(all), {}};
 }
 
 }  // namespace
@@ -314,7 +315,7 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
     state.options().watch.at("searching the residual for structure, " + std::to_string(state.terms.size()) +
                              " found so far");
     if (!scored) scored = scored_model(state);
-    const auto& [model, all] = *scored;
+    auto& [model, all, known] = *scored;
     if (static_cast<int>(state.terms.size()) >= state.options().most_terms) return;
     const auto passes = [&](const ScoredCandidate& lead) {
       return lead.log_p < state.threshold() && may_enter(lead.candidate());
@@ -322,7 +323,7 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
     std::vector<ScoredCandidate> passing;
     std::copy_if(all.begin(), all.end(), std::back_inserter(passing), passes);
     if (passing.empty()) {
-      const std::vector<ScoredCandidate> looked = refit_noise_pass(state, model, all, may_enter);
+      const std::vector<ScoredCandidate> looked = refit_noise_pass(state, model, all, may_enter, known);
       std::copy_if(looked.begin(), looked.end(), std::back_inserter(passing), passes);
       if (passing.empty() && looked_closely <= state.terms.size()) {
         looked_closely = state.terms.size() + 1;
@@ -345,7 +346,8 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
       continue;
     }
     const Index rows = state.rows().size();
-    const bool entered = enter(state, compared(state, model, passing, all, may_enter).front(), blocked, trials);
+    const bool entered =
+        enter(state, compared(state, model, passing, all, may_enter, known.refined).front(), blocked, trials);
     // A lead that fails leaves the model as it was, unless rows were split for it. Censored readings are imputed anew.
     if (entered || state.rows().size() != rows || state.problem().bounds.any()) scored.reset();
   }

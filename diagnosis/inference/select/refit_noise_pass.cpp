@@ -21,7 +21,7 @@ bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.rol
 // Three near misses, every candidate whose gain has many optima (the grid may miss the highest), and the best of the
 // ladder.
 std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<ScoredCandidate>& first,
-                                          const std::function<bool(const Candidate&)>& usable) {
+                                          const std::function<bool(const Candidate&)>& usable, RememberedRound& known) {
   std::vector<ScoredCandidate> result;
   for (const ScoredCandidate& lead : first) {
     if (looked_at_again(lead.candidate()) && lead.log_p < std::log(thresholds::near_miss_p) &&
@@ -32,7 +32,9 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
     if (lead.candidate().refinement.starts > 1 && usable(lead.candidate()) && !has(result, lead))
       result.push_back(lead);
   }
-  std::vector<ScoredCandidate> slow = ladder(state, usable);
+  if (!known.ladder) known.ladder = ladder(state, usable);
+  std::vector<ScoredCandidate> slow = *known.ladder;
+  std::erase_if(slow, [&](const ScoredCandidate& lead) { return !usable(lead.candidate()); });
   slow.resize(std::min(slow.size(), thresholds::most_slow_leads), slow.empty() ? ScoredCandidate{} : slow[0]);
   for (const ScoredCandidate& lead : slow) {
     if (!has(result, lead)) result.push_back(lead);
@@ -60,28 +62,38 @@ double most_to_come(double before, double gain) {
 // Upper bound of the gain with the noise refitted: over 800 observed, none grew to more than 1.7 times as much.
 double most_once_fitted(double gain) { return thresholds::refit_at_least + thresholds::refit_factor * gain; }
 
+// Refines a cause of many optima, and scores it with the noise fitted beside it.
+ScoredCandidate looked_at(const ModelState& state, const WhitenedModel& model, const Eigen::MatrixXd& design,
+                          ScoredCandidate lead, RememberedLeads& known) {
+  const Candidate& c = lead.candidate();
+  if (c.refinement.starts > 1)
+    lead = known.worked_out(lead, [&](const ScoredCandidate& from) { return refined(state, model, from, false); });
+  lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
+  if (state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold()) return lead;
+  noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));
+  const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
+  if (c.refinement.starts > 1 &&
+      state.log_p(c, most_to_come(lead.gain, gain), c.design.width, true) < state.threshold()) {
+    lead = refined(state, state.whitened_model(design, fit.covariance), lead, false);
+    fit = state.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
+  }
+  lead.gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
+  lead.evidence = state.evidence(c, lead.gain, c.design.width, false);
+  lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
+  return lead;
+}
+
 }  // namespace
 
 std::vector<ScoredCandidate> refit_noise_pass(ModelState& state, const WhitenedModel& model,
                                               const std::vector<ScoredCandidate>& first,
-                                              const std::function<bool(const Candidate&)>& usable) {
-  std::vector<ScoredCandidate> looked = worth_a_look(state, first, usable);
+                                              const std::function<bool(const Candidate&)>& usable,
+                                              RememberedRound& known) {
+  std::vector<ScoredCandidate> looked = worth_a_look(state, first, usable, known);
   const Eigen::MatrixXd design = state.design();
   for (ScoredCandidate& lead : looked) {
-    const Candidate& c = lead.candidate();
-    if (c.refinement.starts > 1) lead = refined(state, model, lead, false);
-    lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
-    if (state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold()) continue;
-    noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));
-    const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-    if (c.refinement.starts > 1 &&
-        state.log_p(c, most_to_come(lead.gain, gain), c.design.width, true) < state.threshold()) {
-      lead = refined(state, state.whitened_model(design, fit.covariance), lead, false);
-      fit = state.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
-    }
-    lead.gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-    lead.evidence = state.evidence(c, lead.gain, c.design.width, false);
-    lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
+    lead = known.refitted.worked_out(
+        lead, [&](const ScoredCandidate& from) { return looked_at(state, model, design, from, known.refined); });
   }
   by_evidence(looked);
   return looked;

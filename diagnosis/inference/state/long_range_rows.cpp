@@ -57,7 +57,14 @@ noise::Fit LongRangeRows::fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd
                                  noise::Family family) const {
   noise::Covariance from{family, near.theta};
   from.theta[1] += noise::log_scale_of(family) - noise::log_scale_of(near.family);
-  return noise::fit(field_, y, design, prior_, from, 4);
+  const auto same = [&](const Known& known) {
+    return known.start.family == from.family && known.start.theta == from.theta &&
+           known.design.cols() == design.cols() && known.y == y && known.design == design;
+  };
+  if (const auto known = std::find_if(known_.begin(), known_.end(), same); known != known_.end()) return known->fit;
+  constexpr std::size_t most = 64;
+  if (known_.size() == most) known_.pop_front();
+  return known_.emplace_back(y, design, from, noise::fit(field_, y, design, prior_, from, 4)).fit;
 }
 
 double LongRangeRows::profile_gain(const Question& q, const noise::Covariance& without,
@@ -65,11 +72,8 @@ double LongRangeRows::profile_gain(const Question& q, const noise::Covariance& w
   const Eigen::VectorXd y = lengthened(q.y);
   const auto log_likelihood = [&](const Eigen::MatrixXd& design, const noise::Covariance& start) {
     double highest = -1e300;
-    for (const noise::Family family : families) {
-      const noise::Fit best = fitted(y, design, start, family);
-      const noise::Whitener whitener(field_, best.covariance);
-      highest = std::max(highest, noise::whitened(whitener, y, design, prior_).basis.log_determinant() - best.value);
-    }
+    for (const noise::Family family : families)
+      highest = std::max(highest, fitted(y, design, start, family).log_likelihood());
     return highest;
   };
   const Eigen::MatrixXd design = lengthened(q.design);

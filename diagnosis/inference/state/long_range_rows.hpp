@@ -2,6 +2,8 @@
 // neighbours of the search do not determine the range of the field.
 #pragma once
 
+#include <deque>
+
 #include "diagnosis/inference/state/problem.hpp"
 
 namespace muster::inference {
@@ -39,10 +41,19 @@ class LongRangeRows {
   noise::Fit fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const noise::Covariance& near,
                     noise::Family family) const;
 
+  // A fit that was made: the bound of a gain and its profile ask for the same, and so do leads beside one model.
+  struct Known {
+    Eigen::VectorXd y;
+    Eigen::MatrixXd design;
+    noise::Covariance start;
+    noise::Fit fit;
+  };
+
   const noise::Rows& rows_;
   noise::Prior prior_;
   noise::Rows long_rows_;
   noise::Field field_;
+  mutable std::deque<Known> known_;
 };
 
 }  // namespace muster::inference

@@ -117,6 +117,7 @@ Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd&
   rows_ = std::move(rows);
   field_ = field_of(rows_);
   far_.reset();
+  starts_.clear();
   base_ = rows_.mean(problem_.base);
   y_ = rows_.mean(measured_);
   for (Term& term : terms) term.columns = columns_of(*term.candidate, term.theta);
@@ -177,9 +178,21 @@ WhitenedModel ModelState::whitened_model(const Eigen::MatrixXd& design, const no
 }
 
 noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
+  const noise::WhitenerSlopes& from = factorised_at({start.family, options_.prior.inside(start.theta)});
   return steps >= thresholds::steps_over_shares
-             ? noise::fit_over_shares(field_, y_, design, options_.prior, start, steps)
-             : noise::fit(field_, y_, design, options_.prior, start, steps);
+             ? noise::fit_over_shares(field_, y_, design, options_.prior, from, steps)
+             : noise::fit(field_, y_, design, options_.prior, from, steps);
+}
+
+const noise::WhitenerSlopes& ModelState::factorised_at(const noise::Covariance& start) const {
+  constexpr std::size_t most = 4;
+  const auto there = std::find_if(starts_.begin(), starts_.end(), [&](const noise::WhitenerSlopes& known) {
+    const noise::Covariance& at = known.whitener().covariance();
+    return known.is_of(field_) && at.family == start.family && at.theta == start.theta;
+  });
+  if (there != starts_.end()) return *there;
+  if (starts_.size() == most) starts_.pop_front();
+  return starts_.emplace_back(field_, start);
 }
 
 std::vector<noise::Family> ModelState::likely_families(noise::Family first) const {

@@ -1,6 +1,7 @@
 // Search state: averaged rows, covariance, candidates and accepted terms.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 
@@ -126,6 +127,7 @@ class ModelState {
  private:
   Entry entry(Candidate candidate) const;
   noise::Field field_of(const noise::Rows& rows) const;
+  const noise::WhitenerSlopes& factorised_at(const noise::Covariance& start) const;
 
   const Problem& problem_;
   Options options_;
@@ -133,6 +135,7 @@ class ModelState {
   std::vector<Index> origin_;  // of each row, the problem's row that it is part of; empty: they are the same
   noise::Field field_;
   mutable std::unique_ptr<const LongRangeRows> far_;
+  mutable std::deque<noise::WhitenerSlopes> starts_;  // of the last fits: beside each candidate they start alike
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
   std::vector<Entry> entries_;

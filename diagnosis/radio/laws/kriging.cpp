@@ -140,8 +140,9 @@ const ReadingView& KrigedReadings::view(const FieldShape& shape, int place) {
   const noise::Covariance at{shape.family, {log_variance, 1e-3 * shape.distance, log_variance + 1e-3 * place, 0}};
   const noise::Whitener whitener(field_, at);
   const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
-  const auto spread = (own.array().inverse().square() - at.reading_variance()) / at.field_variance();
-  ReadingView view{1e-3 * place, error_by(whitener), spread.max(1e-3).log()};
+  const Eigen::ArrayXd spread = (own.array().inverse().square() - at.reading_variance()) / at.field_variance();
+  ReadingView view{1e-3 * place, error_by(whitener), spread.max(1e-3), {}};
+  view.log_spread = view.spread.array().log();
   return known_.emplace(std::pair(shape, place), std::move(view)).first->second;
 }
 

@@ -16,7 +16,8 @@ namespace muster::diagnosis {
 struct ReadingView {
   double log_ratio = 0;        // of variances
   Eigen::VectorXd error;       // dB, a reading less its prediction
-  Eigen::VectorXd log_spread;  // log prediction variance of the level, for a field of variance 1
+  Eigen::VectorXd spread;      // prediction variance of the level, for a field of variance 1
+  Eigen::VectorXd log_spread;  // its logarithm
 };
 
 // A family of correlations with a decorrelation distance.

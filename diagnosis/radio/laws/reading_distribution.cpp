@@ -42,13 +42,14 @@ std::vector<double> smeared(const std::vector<double>& table, const std::vector<
 
 std::vector<double> normal_kernel(double variance, double bin) {
   const auto reach = static_cast<std::ptrdiff_t>(4.5 * std::sqrt(variance) / bin) + 1;
-  std::vector<double> kernel;
-  double sum = 0;
-  for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+  std::vector<double> kernel(static_cast<std::size_t>(2 * reach + 1));
+  const auto middle = kernel.begin() + reach;
+  for (std::ptrdiff_t k = 0; k <= reach; ++k) {
     const double z = static_cast<double>(k) * bin;
-    kernel.push_back(std::exp(-z * z / (2 * variance)));
-    sum += kernel.back();
+    middle[k] = middle[-k] = std::exp(-z * z / (2 * variance));
   }
+  double sum = 0;
+  for (const double v : kernel) sum += v;
   for (double& v : kernel) v /= sum;
   return kernel;
 }
@@ -132,6 +133,7 @@ ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, 
     const double next = std::exp(lowest + log_factor * static_cast<double>(l));
     level = smeared(level, normal_kernel(next - variance, bin));
     variance = next;
+    variances_.push_back(next);
     table_.insert(table_.end(), level.begin(), level.end());
   }
 }

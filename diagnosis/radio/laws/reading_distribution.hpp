@@ -34,27 +34,29 @@ class ReadingDensities {
   // For spreads with log variances in this range.
   ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest);
 
-  double log_at(double db, double log_variance) const {
+  double log_at(double db, double log_variance) const { return std::log(at(db, log_variance, std::exp(log_variance))); }
+  // The density; the variance is asked for, too, for a logarithm takes longer than all else here.
+  double at(double db, double log_variance, double variance) const {
     const double place = (db - first_db) / bin;
-    if (!(place >= 0 && place < bins - 1)) return log_anything;
+    if (!(place >= 0 && place < bins - 1)) return anything;
     const auto b = static_cast<std::size_t>(place);
     const double along = place - static_cast<double>(b);
     const double level = std::min(std::max((log_variance - lowest_) / log_factor, 0.0), top_);
-    const auto l = std::min(static_cast<std::size_t>(level), static_cast<std::size_t>(top_) - 1);
-    const double part = std::expm1((level - static_cast<double>(l)) * log_factor) / std::expm1(log_factor);
+    const auto l = std::min(static_cast<std::size_t>(level), variances_.size() - 2);
+    const double part = std::min(std::max((variance - variances_[l]) / (variances_[l + 1] - variances_[l]), 0.0), 1.0);
     const double* const low = table_.data() + l * bins + b;
     const double* const high = low + bins;
     const double at_low = low[0] + along * (low[1] - low[0]), at_high = high[0] + along * (high[1] - high[0]);
-    return std::log(at_low + part * (at_high - at_low) + anything);
+    return at_low + part * (at_high - at_low) + anything;
   }
 
  private:
   static constexpr double first_db = -65, bin = 0.2, log_factor = 0.4;
   static constexpr std::size_t bins = 601;
   // Floor of all densities: no law is exact in its far tails.
-  static constexpr double anything = 1e-8, log_anything = -18.42;  // per dB
-  double lowest_, top_;  // log variance of the first level; number of levels after it
-  std::vector<double> table_;
+  static constexpr double anything = 1e-8;  // per dB
+  double lowest_, top_;                     // log variance of the first level; number of levels after it
+  std::vector<double> variances_, table_;   // of the levels
 };
 
 }  // namespace muster::diagnosis

@@ -12,6 +12,14 @@
 namespace muster::inference {
 namespace {
 
+std::vector<ScoredCandidate> freshly_compared(const ModelState& state, const WhitenedModel& model,
+                                              const std::vector<ScoredCandidate>& passing,
+                                              const std::vector<ScoredCandidate>& all,
+                                              const std::function<bool(const Candidate&)>& usable) {
+  RememberedLeads none;
+  return compared(state, model, passing, all, usable, none);
+}
+
 TEST(Compared, SimplerOfTwoEqualEffectsComesFirst) {
   const auto world = world_of(varied(34, 4000));
   const auto twins = twins_of(world);
@@ -25,7 +33,7 @@ TEST(Compared, SimplerOfTwoEqualEffectsComesFirst) {
     if (lead.candidate().id == "twin" || lead.candidate().id == "rx_offset") pair.push_back(lead);
   ASSERT_EQ(pair.size(), 2u);
   for (int order = 0; order < 2; ++order, std::swap(pair[0], pair[1]))
-    EXPECT_EQ(compared(state, model, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
+    EXPECT_EQ(freshly_compared(state, model, pair, pair, [](const Candidate&) { return true; }).front().candidate().id,
               "rx_offset");
 }
 
@@ -51,7 +59,8 @@ TEST(Compared, RefinedCandidateKeepsItsEarlierGainUnlessItsStrengthIsFixed) {
     lead.columns = state.columns_of(*step, lead.theta);
     const double plain = gain_of(*step, model, lead.columns);
     lead.gain = plain + won;
-    const ScoredCandidate best = compared(state, model, {lead}, {lead}, [](const Candidate&) { return true; }).front();
+    const ScoredCandidate best =
+        freshly_compared(state, model, {lead}, {lead}, [](const Candidate&) { return true; }).front();
     const double refined = gain_of(*step, model, best.columns);
     EXPECT_NEAR(best.theta[0], 0.43 * last, 0.01 * last);
     EXPECT_GT(refined, plain + 5);
@@ -75,7 +84,7 @@ TEST(Compared, SmoothThatGrewIsTheSameByItsTheta) {
                            [](const ScoredCandidate& lead) { return lead.candidate().id != "~temperature"; }),
             all.end());
   ASSERT_EQ(all.size(), 1u);
-  const ScoredCandidate best = compared(state, model, all, {}, [](const Candidate&) { return true; }).front();
+  const ScoredCandidate best = freshly_compared(state, model, all, {}, [](const Candidate&) { return true; }).front();
   const CandidateDesign& design = best.candidate().design;
   EXPECT_GT(best.columns.cols(), design.width);
   EXPECT_EQ(best.columns, state.columns_of(best.candidate(), best.theta));
@@ -97,7 +106,7 @@ TEST(Compared, ObservedColumnPrecedesTimeAtEqualGainBesideItsFunctions) {
   swing.gain = 60, swing.evidence = 20, bend.evidence = 19;
   for (const double more : {-0.1, 0.1}) {
     bend.gain = 60 - 2 * (2 + 1) + 2 * (1 + 1) + more;
-    const auto pool = compared(state, model, {swing, bend}, {}, [](const Candidate&) { return true; });
+    const auto pool = freshly_compared(state, model, {swing, bend}, {}, [](const Candidate&) { return true; });
     EXPECT_EQ(pool[0].candidate().id, more > 0 ? "bend~battery" : "chirp~time");
   }
   // A column's own smooth has no grid.
@@ -105,7 +114,7 @@ TEST(Compared, ObservedColumnPrecedesTimeAtEqualGainBesideItsFunctions) {
   smooth.evidence = 19;
   for (const double more : {-0.1, 0.1}) {
     smooth.gain = 60 - 2 * (2 + 1) + 2 * static_cast<double>(smooth.columns.cols()) + more;
-    const auto pool = compared(state, model, {swing, smooth}, {}, [](const Candidate&) { return true; });
+    const auto pool = freshly_compared(state, model, {swing, smooth}, {}, [](const Candidate&) { return true; });
     EXPECT_EQ(pool[0].candidate().id, more > 0 ? "~temperature" : "chirp~time");
   }
 }

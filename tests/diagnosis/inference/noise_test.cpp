@@ -229,6 +229,26 @@ TEST(Fit, DistinguishesASmoothFieldFromAnExponentialOne) {
             Family::exponential);
 }
 
+TEST(Fit, FromAFactorisedStartIsTheSame) {
+  const auto world = synthetic::world_of(synthetic::varied(5, 3000));
+  const Rows rows = diagnosis::link_rows(world.readings);
+  const Field field(diagnosis::link_sites(rows, world.readings));
+  const Eigen::VectorXd y = rows.mean(world.rssi);
+  const Eigen::MatrixXd design = rows.mean(world.base);
+  for (const Family family : {Family::exponential, Family::matern52}) {
+    const Covariance start = default_start(y, design, family);
+    const Fit afresh = fit(field, y, design, {}, start, 8);
+    const WhitenerSlopes there(field, {family, Prior().inside(start.theta)});
+    for (const Fit& again : {fit(field, y, design, {}, there, 8), fit_over_shares(field, y, design, {}, there, 8)}) {
+      EXPECT_EQ(again.covariance.theta, afresh.covariance.theta);
+      EXPECT_EQ(again.value, afresh.value);
+      EXPECT_EQ(again.curvature, afresh.curvature);
+    }
+    const Whitened at = whitened(Whitener(field, afresh.covariance), y, design, {});
+    EXPECT_NEAR(afresh.log_likelihood(), at.basis.log_determinant() - at.value, 1e-9);
+  }
+}
+
 // A valid correlation: no combination of nearby rows has a negative variance.
 TEST(Families, ArePositiveDefiniteOverRows) {
   Sites sites = scattered(60, 1, 21);

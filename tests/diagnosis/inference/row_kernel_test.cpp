@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/neighbourhood.hpp"
@@ -80,6 +82,77 @@ TEST(RowKernels, FactoriseToTheSameBits) {
     }
   }
   EXPECT_TRUE(row_kernels().number == 1 || (seen[1] && seen[2] && seen[3]));
+}
+
+// Neighbourhoods of points on a line in every lane, or in all but one: there correlations contradict each other.
+struct OnALine {
+  static constexpr long slots = 7;
+  static constexpr int odd = 3;  // lane
+  static constexpr double field = 4, reading = 0.02;
+  std::vector<double> correlation = std::vector<double>(1001);
+  std::vector<uint16_t> near;
+  std::vector<Joint> kinds = std::vector<Joint>(slots * (slots + 1) / 2, Joint::same);
+  std::vector<Lanes> nugget{slots + 1}, present{slots + 1}, variance{slots + 1}, root{slots * slots}, cross{slots},
+      combination{slots + 1};
+
+  explicit OnALine(bool contradicts) {
+    for (std::size_t k = 0; k < correlation.size(); ++k) correlation[k] = std::exp(-0.01 * static_cast<double>(k));
+    for (int a = 0; a < slots; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        for (int lane = 0; lane < lanes; ++lane) {
+          const bool chance = contradicts && lane == odd;
+          near.push_back(
+              chance ? static_cast<uint16_t>(60 * Stream(7).uniform(static_cast<uint64_t>(a), static_cast<uint64_t>(b)))
+                     : static_cast<uint16_t>(apart(lane, a, b < a ? b : slots)));
+        }
+      }
+    }
+    for (auto* all : {&nugget, &present, &variance}) {
+      const double value = all == &nugget ? reading : all == &present ? 1 : field;
+      for (Lanes& each : *all) std::fill_n(each.of, lanes, value);
+    }
+  }
+
+  static int place(int lane, long slot) {
+    return static_cast<int>(400 * Stream(8).uniform(static_cast<uint64_t>(lane), static_cast<uint64_t>(slot)));
+  }
+  static int apart(int lane, long a, long b) { return std::abs(place(lane, a) - place(lane, b)); }
+
+  void factorise(const RowKernel& kernel) {
+    Neighbourhoods n{};
+    n.slots = slots;
+    n.correlation = correlation.data();
+    n.near_variance = field;
+    n.floor_variance = floor_variance;
+    n.near = n.joint = near.data();
+    n.kinds = kinds.data();
+    n.nugget = nugget[0].of, n.present = present[0].of, n.field = variance[0].of;
+    n.root = root[0].of, n.cross = cross[0].of, n.combination = combination[0].of;
+    kernel.factorise(n);
+  }
+};
+
+TEST(RowKernels, ALaneThatNeedsABoundLeavesTheOthersAlone) {
+  for (int k = 0; k < row_kernels().number; ++k) {
+    OnALine sound(false), one(true);
+    for (OnALine* each : {&sound, &one}) each->factorise(*row_kernels().all[k]);
+    const double most = 1 / std::sqrt(OnALine::reading + floor_variance);
+    EXPECT_NEAR(one.combination[OnALine::slots].of[OnALine::odd], most, 1e-9);  // nothing more is left of it
+    for (int lane = 0; lane < lanes; ++lane) {
+      Eigen::MatrixXd c(OnALine::slots + 1, OnALine::slots + 1);
+      for (long a = 0; a <= OnALine::slots; ++a) {
+        for (long b = 0; b <= OnALine::slots; ++b)
+          c(a, b) = OnALine::field * std::exp(-0.01 * OnALine::apart(lane, a, b)) +
+                    (a == b ? OnALine::reading + floor_variance : 0);
+      }
+      const Eigen::VectorXd last = c.inverse().col(OnALine::slots), plain = last / std::sqrt(last[OnALine::slots]);
+      for (long a = 0; a <= OnALine::slots; ++a) {
+        const double by_kernel = sound.combination[static_cast<std::size_t>(a)].of[lane];
+        EXPECT_NEAR(by_kernel, plain[a], 1e-8 * plain[OnALine::slots]) << lane << ' ' << a;
+        EXPECT_EQ(one.combination[static_cast<std::size_t>(a)].of[lane] == by_kernel, lane != OnALine::odd) << lane;
+      }
+    }
+  }
 }
 
 // A plain loop, in the order of the slots.

@@ -87,6 +87,36 @@ TEST(FadingTests, FieldSizeIsIndependentOfTheStart) {
   }
 }
 
+TEST(FadingTests, TheLikelihoodIsTheSumOverReadings) {
+  const Walk walk = drawn({.rician_k = 6, .outliers = 0.02}, 2000);
+  KrigedReadings field(walk.readings, walk.residual);
+  LawLikelihood judge(field, 1);
+  for (const int place : {-4000, 0, 2600}) {
+    const Peak there{0, {noise::Family::exponential, 400}, place};
+    for (const ReadingDistribution& law : {law_of({.rician_k = 6}), law_of({.rician_k = 60, .outliers = 0.01})}) {
+      const double sum = judge.each(law, there).sum();
+      EXPECT_NEAR(judge.value(law, there), sum, 1e-9 * std::abs(sum)) << place;
+    }
+  }
+}
+
+// Between two tabulated spreads the density is linear in the variance.
+TEST(ReadingDistribution, DensitiesAreInterpolatedInTheVariance) {
+  const ReadingDensities densities(law_of({.rician_k = 5}), 1, 0, 2);
+  const double low = std::exp(0.4), high = std::exp(0.8);  // tabulated, 0.4 apart
+  for (const double db : {-12.0, -3.3, 0.0, 2.1, 9.0}) {
+    const double at_low = densities.at(db, 0.4, low), at_high = densities.at(db, 0.8, high);
+    for (const double part : {0.1, 0.5, 0.8}) {
+      const double variance = low + part * (high - low);
+      const double density = densities.at(db, std::log(variance), variance);
+      EXPECT_NEAR(density, at_low + part * (at_high - at_low), 1e-12) << db;
+      EXPECT_EQ(densities.log_at(db, std::log(variance)),
+                std::log(densities.at(db, std::log(variance), std::exp(std::log(variance)))));
+    }
+  }
+  EXPECT_EQ(densities.at(0, -5, std::exp(-5.0)), densities.at(0, 0, 1));  // none is narrower than the narrowest
+}
+
 // A subsample gives the start; the result is the best on all readings.
 TEST(FadingTests, ShapesOfASubsetAreRankedByAllReadings) {
   constexpr double likely = 6;  // nats
