@@ -87,7 +87,7 @@ TEST(CommandWords, AParameterOfARobotIsThatOfItsController) {
                "controller control.steady?");
   expect_error(folder.muster({"run", "world.xml", "--set", "rover/speed=0.2"}), 2,
                "\"rover\" is a robot (world.xml:2:1) and has no parameters; its controller control.steady has "
-               "driver/v, driver/w");
+               "driver/v, driver/w, driver/until");
 }
 
 TEST(CommandWords, ACheckStandsAlone) {

@@ -185,12 +185,13 @@ TEST(Idle, OfTwoShadowingsTheOneBesideFadingIsTakenOut) {
 TEST(Idle, ARoadmapOfARadiusInMillimetres) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(wall + rover));
-  const auto warned = [&](const std::string& radius) {
-    return folder.muster({"roadmap", "world.xml", "--out", "r.csv", "--radius", radius}).out;
+  const auto given = [&](const std::string& radius) {
+    return folder.muster({"roadmap", "world.xml", "--out", "r.csv", "--radius", radius});
   };
-  EXPECT_THAT(warned("152"), testing::StartsWith("warning: --radius: 152 m, more than any robot; is this in "
-                                                 "millimetres? expected --radius 0.152\nw: "));
-  EXPECT_THAT(warned("0.152"), testing::StartsWith("w: "));
+  expect_error(given("152"), 2,
+               "--radius: 152 m, with which no robot of the world has room where it stands; is this in millimetres? "
+               "expected --radius 0.152");
+  EXPECT_THAT(given("0.152").out, testing::StartsWith("w: "));
 }
 
 TEST(Idle, BlanksAroundAnEqualsSign) {
