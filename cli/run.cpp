@@ -1,10 +1,8 @@
 // muster run WORLD and muster swap WORLD: the same run, with or without an exchange on the way.
 #include <fmt/core.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <optional>
 
 #include "all_parts.hpp"
@@ -13,6 +11,7 @@
 #include "level_terms.hpp"
 #include "live_view.hpp"
 #include "pacing.hpp"
+#include "plugin_watcher.hpp"
 #include "restored_run.hpp"
 #include "run_costs.hpp"
 #include "run_log_files.hpp"
@@ -83,34 +82,6 @@ void declare(CommandLine& line, RunWords& words) {
   line.void_beside("--expected", {"--until", "--digest-every", "--save-every", "--watch", "--real-time", "--speed"},
                    "runs no tick");
 }
-
-// Loads plugins again whose files have changed since the last look.
-class Watcher {
- public:
-  void look(Simulation& run) {
-    for (const auto& instance : run.instances()) {
-      const auto now = stamp(instance->library()->file());
-      const auto [known, is_new] = seen_.emplace(instance->name(), now);
-      if (is_new || known->second == now || now == Stamp{}) continue;
-      known->second = now;
-      try {
-        run.reload(instance->name());
-      } catch (const Error& e) {
-        fmt::print(stderr, "muster: warning: {}; the old one goes on\n", e.what());
-      }
-      return;  // reload() has changed the list
-    }
-  }
-
- private:
-  using Stamp = std::pair<int64_t, int64_t>;  // size and time of change
-  static Stamp stamp(const std::filesystem::path& file) {
-    struct stat s {};
-    if (::stat(file.c_str(), &s) != 0 || s.st_size == 0) return {};
-    return {s.st_size, s.st_mtim.tv_sec * 1'000'000'000 + s.st_mtim.tv_nsec};
-  }
-  std::map<std::string, Stamp> seen_;
-};
 
 // The tables of OBSERVE instances: what the world's authors chose to see of it.
 Json observed(const Simulation& run) {
@@ -292,7 +263,7 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
     log.emplace(run, records, words.log, words.out);
     log->write(run);
   }
-  Watcher watcher;
+  PluginWatcher watcher;
   Digests digests;
   Progress progress("muster run " + run.world().name);
   SteadyClock clock(interrupted);

@@ -208,9 +208,10 @@ void Instance::check_attributes() {
 
 namespace {
 
-// The time of a tick to a fraction of it, without the digits that 3 * 0.1 has beyond 0.3.
+// The time of a tick to a hundredth of it at least, without the digits that 3 * 0.1 has beyond 0.3.
 std::string print_time(const muster_tick& tick, double dt) {
-  const double parts = std::pow(10, 3 - std::floor(std::log10(dt)));
+  double parts = 1;  // of a second: a power of ten
+  while (parts * dt < 100 && parts < 1e12) parts *= 10;
   return print_real(std::round(tick.time * parts) / parts);
 }
 

@@ -4,74 +4,12 @@
 #include <cstring>
 #include <optional>
 
+#include "shared_values.hpp"
+
 namespace muster {
 namespace {
 
 constexpr std::size_t least_bytes = std::size_t{1} << 20, most_bytes = std::size_t{1} << 32;
-
-struct DoesNotFit {};
-
-// Values one after another in shared memory, each at a multiple of 8 bytes.
-class Writer {
- public:
-  Writer(std::byte* at, std::byte* end) : at_(at), end_(end) {}
-
-  double* put(const double* from, std::size_t count) {
-    return reinterpret_cast<double*>(put_bytes(from, count * sizeof(double)));
-  }
-  void put(uint64_t value) { put_bytes(&value, sizeof value); }
-  void put(const std::string& text) {
-    put(text.size());
-    put_bytes(text.data(), text.size());
-  }
-  void put(const Blob& blob) {
-    put(blob->size());
-    put_bytes(blob->data(), blob->size());
-  }
-  std::byte* at() const { return at_; }
-
- private:
-  std::byte* put_bytes(const void* from, std::size_t bytes) {
-    const std::size_t whole = (bytes + 7) / 8 * 8;
-    if (whole > static_cast<std::size_t>(end_ - at_)) throw DoesNotFit{};
-    if (bytes > 0) std::memcpy(at_, from, bytes);
-    return std::exchange(at_, at_ + whole);
-  }
-  std::byte *at_, *end_;
-};
-
-// The plugin of the other process may have written anything: nothing is read from beyond the end.
-class Reader {
- public:
-  Reader(std::byte* at, std::byte* end) : at_(at), end_(end) {}
-
-  double* numbers(uint64_t count, uint64_t width = 1) {
-    if (width > 0 && count > static_cast<std::size_t>(end_ - at_) / sizeof(double) / width) throw DoesNotFit{};
-    return reinterpret_cast<double*>(take(count * width * sizeof(double)));
-  }
-  uint64_t number() {
-    uint64_t result;
-    std::memcpy(&result, take(sizeof result), sizeof result);
-    return result;
-  }
-  std::string text() {
-    const uint64_t size = number();
-    return {reinterpret_cast<const char*>(take(size)), size};
-  }
-  Blob blob() {
-    const uint64_t size = number();
-    const auto* bytes = reinterpret_cast<const uint8_t*>(take(size));
-    return std::make_shared<const std::vector<uint8_t>>(bytes, bytes + size);
-  }
-
- private:
-  std::byte* take(uint64_t bytes) {
-    const uint64_t whole = (bytes + 7) / 8 * 8;
-    if (whole < bytes || whole > static_cast<uint64_t>(end_ - at_)) throw DoesNotFit{};
-    return std::exchange(at_, at_ + whole);
-  }
-  std::byte *at_, *end_;
-};
 
 bool any_bytes(const Columns& columns) {
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -102,7 +40,7 @@ class IsolatedStep::Crossing {
 
   // Here. False where it does not fit.
   bool send(const muster_tick& now) try {
-    Writer to(begin_, half_);
+    ValueWriter to(begin_, half_);
     to.put(now.index);
     to.put(now.flags);
     to.put(&now.time, 1);
@@ -133,7 +71,7 @@ class IsolatedStep::Crossing {
 
   // There. The views point into the memory.
   muster_tick receive() {
-    Reader from(begin_, half_);
+    ValueReader from(begin_, half_);
     muster_tick now{};
     now.index = from.number();
     now.flags = static_cast<uint32_t>(from.number());
@@ -168,7 +106,7 @@ class IsolatedStep::Crossing {
 
   // There. The first number is 0 until all is written.
   void answer(bool fine) try {
-    Writer to(half_, end_);
+    ValueWriter to(half_, end_);
     to.put(uint64_t{0});
     to.put(static_cast<uint64_t>(fine));
     to.put(instance_.error_);
@@ -210,7 +148,7 @@ class IsolatedStep::Crossing {
 
   // Here. Nothing where the answer did not fit.
   std::optional<bool> take() {
-    Reader from(half_, end_);
+    ValueReader from(half_, end_);
     if (from.number() == 0) return {};
     const bool fine = from.number() != 0;
     instance_.error_ = from.text();
@@ -261,7 +199,7 @@ class IsolatedStep::Crossing {
     instance_.leaves.clear();
   }
 
-  Set& set_of(Reader& from) const {
+  Set& set_of(ValueReader& from) const {
     Set* set = around_.board->find_set(from.text());
     if (!set) throw DoesNotFit{};
     return *set;

@@ -145,7 +145,7 @@ std::string elsewhere(const Simulation& run, const std::string& path) {
 
 }  // namespace
 
-std::string fault_of_robot(const Simulation& run, const std::string& path) {
+std::string fault_of_row(const Simulation& run, const std::string& path) {
   const std::string owner = owner_of(path), name = path.substr(std::min(owner.size() + 1, path.size()));
   const auto& rows = run.world().rows;
   const auto robot = std::find_if(

@@ -26,7 +26,7 @@ std::string swap_with(const InstanceDeclaration& now, const std::string& name, c
 
 // `"rover" is a robot (world.xml:6:3) and has no parameters; did you mean "driver/speed", of its controller ...?`; ""
 // of a path that begins with no robot.
-std::string fault_of_robot(const Simulation& run, const std::string& path);
+std::string fault_of_row(const Simulation& run, const std::string& path);
 
 // Of a number that plugins write; "" where it is none.
 std::string state_fault(const Simulation& run, const std::string& path);

@@ -227,7 +227,7 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
                                            path.substr(path.rfind('/') + 1) + "=VALUE)");
   }
   for (const std::string& fault :
-       {fixed_attribute_of_row(world_, standard_, path), state_fault(*this, path), fault_of_robot(*this, path)}) {
+       {fixed_attribute_of_row(world_, standard_, path), state_fault(*this, path), fault_of_row(*this, path)}) {
     if (!fault.empty()) throw Error(Exit::invalid_input, fault);
   }
   const std::string owner = path.substr(0, path.rfind('/'));

@@ -31,12 +31,6 @@ bool same(const sigset_t& a, const sigset_t& b) {
   return true;
 }
 
-mode_t file_mask() {
-  const mode_t now = ::umask(0);
-  ::umask(now);
-  return now;
-}
-
 constexpr std::array watched = {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGPIPE};
 using Handlers = std::array<struct sigaction, watched.size()>;
 
@@ -62,7 +56,6 @@ ProcessGuard::ProcessGuard()
     : c_locale_(c_locale()),
       folder_(folder()),
       signals_(signals()),
-      mask_(file_mask()),
       handlers_(handlers()),
       standard_{identity(STDOUT_FILENO), identity(STDERR_FILENO)} {}
 
@@ -75,7 +68,6 @@ std::string ProcessGuard::what() const {
     add("changes the global std::locale");
   if (folder() != folder_) add("changes the working directory to " + folder().string());
   if (!same(signals(), signals_)) add("changes the signal mask");
-  if (file_mask() != mask_) add("changes the mask of new files (umask)");
   const Handlers now = handlers();
   for (std::size_t i = 0; i < watched.size(); ++i)
     if (!same(now[i], handlers_[i])) add(std::string("takes the handler of SIG") + ::sigabbrev_np(watched[i]));
@@ -91,7 +83,6 @@ void ProcessGuard::restore() const noexcept {
   std::error_code gone;
   if (!folder_.empty() && folder() != folder_) std::filesystem::current_path(folder_, gone);
   ::pthread_sigmask(SIG_SETMASK, &signals_, nullptr);
-  ::umask(mask_);
   const Handlers now = handlers();
   for (std::size_t i = 0; i < watched.size(); ++i)
     if (!same(now[i], handlers_[i])) ::sigaction(watched[i], &handlers_[i], nullptr);

@@ -14,8 +14,8 @@
 
 namespace muster {
 
-// Saves that state when made, and restores it in its destructor at the latest: locales, the working directory, the mask
-// of new files, the signal mask and handlers of signals that end a run, arithmetic; what standard output and error are
+// Saves that state when made, and restores it in its destructor at the latest: locales, the working directory, the
+// signal mask and handlers of signals that end a run, arithmetic; what standard output and error are
 // is told, and not restored. Takes some microseconds: for loading and for single steps.
 class ProcessGuard {
  public:
@@ -34,7 +34,6 @@ class ProcessGuard {
   std::locale locale_;
   std::filesystem::path folder_;
   sigset_t signals_;
-  mode_t mask_;
   std::array<struct sigaction, 6> handlers_;
   std::array<std::pair<dev_t, ino_t>, 2> standard_;  // output, error
 };

@@ -1,6 +1,4 @@
 // What a plugin changes in the process that it shares with all others is told, and put back where that is possible.
-#include <sys/stat.h>
-
 #include <csignal>
 #include <filesystem>
 
@@ -25,10 +23,7 @@ TEST_F(ProcessState, ChangeInAStepIsThePluginsFault) {
                ? error.substr(begin.size(), error.size() - begin.size() - end.size())
                : "";
   };
-  const mode_t mask = ::umask(022);
   const auto folder_before = std::filesystem::current_path();
-  EXPECT_EQ(fault("umask"), "changes the mask of new files (umask)");
-  EXPECT_EQ(::umask(mask), 022);
   EXPECT_EQ(fault("handler"), "takes the handler of SIGINT");
   EXPECT_EQ(std::signal(SIGINT, SIG_DFL), SIG_DFL);
   EXPECT_EQ(fault("folder"), "changes the working directory to /");

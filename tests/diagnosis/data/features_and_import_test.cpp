@@ -174,9 +174,7 @@ TEST(Import, WhatIsRefusedIsNamedAsItStandsInTheSource) {
             "wide.csv:5: with i = 1: robot -> anchor1 at t = 1 s repeats line 3 with i = 1; expected each (t, tx, rx) "
             "once");
   EXPECT_EQ(failing(with("tx_y[m] =", "tx_y[cm] =")),
-            "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\", and SCALE*COLUMN "
-            "where that "
-            "differs");
+            "m.map:9: column \"tx_y[cm]\" has the wrong unit; expected \"tx_y[m]\": tx_y[m] = 1e-05*py");
   EXPECT_EQ(failing(with("tx_y[m] =", "rx_yaw[deg] = heading\ntx_y[m] =")),
             "m.map:9: column \"rx_yaw[deg]\" has the wrong unit; expected \"rx_yaw[rad]\": rx_yaw[rad] = "
             "0.017453292519943295*heading");
