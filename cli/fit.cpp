@@ -7,6 +7,7 @@
 
 #include "diagnosis/report/fit_report.hpp"
 #include "diagnosis/report/noise_report.hpp"
+#include "text/names.hpp"
 #include "verbs.hpp"
 #include "written_files.hpp"
 
@@ -105,7 +106,19 @@ void print_natural(const std::vector<NaturalExponent>& exponents) {
         n.path, n.value, n.lower95, n.upper95, n.reach, n.mistaken);
 }
 
+// --table beside readings of radios, which need none.
+void refuse_readings(const FitWords& words) {
+  std::ifstream data(words.data);
+  std::string header;
+  std::getline(data, header);
+  if (header.find("rssi") == header.npos) return;
+  throw Error(Exit::invalid_input, Place{words.data, 1, 0},
+              "has readings of radios, and --table " + quote(words.table) +
+                  " asks for rows of such a table; without --table, the channel is fitted to them");
+}
+
 int fit_noise(const FitWords& words) {
+  refuse_readings(words);
   const World world = read_world(words.world, standard());
   Options options{plugin_path(words.plugins), 1, {}};
   const auto fit = diagnosis::fit_noise(world, options, words.table, words.data, {words.free, words.fix});

@@ -80,6 +80,10 @@ constexpr Habit habits[] = {{"view", "to watch a run", "muster run {} --view"},
 [[noreturn]] void refuse_verb(const Arguments& words, const std::vector<std::string>& names) {
   for (const Habit& habit : habits) {
     if (words[0] != habit.verb) continue;
+    if (words.size() > 1 && std::filesystem::exists(std::filesystem::path(words[1]) / "run.json"))
+      throw Error(Exit::invalid_input, fmt::format("there is no verb {}; {} is the record of a run: muster report {} "
+                                                   "makes its page, {}/run.html (muster --help lists the verbs)",
+                                                   quote(words[0]), quote(words[1]), words[1], words[1]));
     const std::string world = words.size() > 1 && !words[1].starts_with("-") ? words[1] : "WORLD";
     throw Error(Exit::invalid_input,
                 fmt::format("there is no verb {}; {}: {} (muster --help lists the verbs)", quote(words[0]), habit.what,

@@ -175,7 +175,8 @@ void check_written(const RunWords& words) {
   files.reads_world(words.world);
   if (words.restore != words.save)
     files.reads(words.restore, "--restore");  // a state that goes on may stay in one file
-  WrittenFiles::writes_folder(words.out, "--out");
+  WrittenFiles::writes_folder(words.out, "--out",
+                              std::filesystem::path(words.out).extension() == ".mcap" ? "--mcap" : "--wide");
   files.writes(words.log.mcap, "--mcap");
   files.writes(words.log.wide, "--wide");
   files.writes(words.save, "--save");

@@ -30,14 +30,36 @@ std::string first_column(const std::string& table) {
   return "COLUMN";
 }
 
+// "robot/rover/pose/x" of "robot/rover/x": with the first quantity of the set that has such a column; "" where none
+// has.
+std::string with_quantity(const std::string& word) {
+  const auto first = word.find('/'), last = word.rfind('/');
+  const std::string column = word.substr(last + 1);
+  for (const auto& set : standard().sets) {
+    if (first == last || word.substr(0, first) != set.name) continue;
+    for (const auto& quantity : set.quantities) {
+      if (quantity.name == column) return "";
+    }
+    for (const auto& quantity : set.quantities) {
+      if ((' ' + std::string(quantity.columns)).find(' ' + column + '[') != std::string::npos)
+        return word.substr(0, last) + '/' + quantity.name + '/' + column;
+    }
+  }
+  return "";
+}
+
 PlottedColumn plotted(const std::string& word) {
   const auto slash = word.rfind('/');
   if (slash == word.npos || slash == 0 || slash + 1 == word.size())
     throw Error(Exit::invalid_input,
                 "--plot " + quote(word) + ": expected a table and its column, such as 'robot/*/pose/x'");
-  if (std::count(word.begin(), word.end(), '/') < 3)
+  if (std::count(word.begin(), word.end(), '/') < 3) {
+    if (const std::string meant = with_quantity(word); !meant.empty())
+      throw Error(Exit::invalid_input, "--plot " + quote(word) + ": " + quote(word.substr(slash + 1)) +
+                                           " is a column and no table; expected " + quote(meant));
     throw Error(Exit::invalid_input, "--plot " + quote(word) + " has no column; expected one of the table's, such as " +
                                          quote(word + '/' + first_column(word)));
+  }
   return {word.substr(0, slash), word.substr(slash + 1)};
 }
 

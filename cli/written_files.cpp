@@ -65,10 +65,19 @@ void WrittenFiles::writes(const fs::path& file, const std::string& option) {
     if (const std::string where = named_in(world, file); !where.empty()) refuse("read by this command (" + where + ")");
 }
 
-void WrittenFiles::writes_folder(const fs::path& folder, const std::string& option) {
+void WrittenFiles::writes_folder(const fs::path& folder, const std::string& option, const std::string& of_file) {
   std::error_code none;
   if (fs::exists(folder, none) && !fs::is_directory(folder, none))
     throw Error(Exit::invalid_input, option + ": " + folder.string() + " is a file; expected a folder");
+  for (const char* ending : {".csv", ".mcap", ".json", ".html", ".xml", ".svg", ".png"}) {
+    if (folder.extension() == ending && !fs::exists(folder, none))
+      throw Error(
+          Exit::invalid_input,
+          option + ": " + folder.string() + " is called like a file, and a folder is made; expected " + option + ' ' +
+              folder.stem().string() +
+              (of_file.empty() ? ""
+                               : ", or " + of_file + ' ' + folder.string() + " for what is recorded, in one file"));
+  }
 }
 
 }  // namespace muster::cli

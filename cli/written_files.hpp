@@ -17,8 +17,9 @@ class WrittenFiles {
 
   // Call after all that is read. Empty paths are none. Throws Error.
   void writes(const std::filesystem::path& file, const std::string& option);
-  // Throws Error where the path is a file.
-  static void writes_folder(const std::filesystem::path& folder, const std::string& option);
+  // Throws Error where the path is a file, or is called like one; `of_file` is the option that writes such a file.
+  static void writes_folder(const std::filesystem::path& folder, const std::string& option,
+                            const std::string& of_file = "");
 
  private:
   using Named = std::pair<std::filesystem::path, std::string>;

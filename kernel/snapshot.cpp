@@ -105,6 +105,10 @@ class Reader {
     const std::string_view all = text_;
     if (all.substr(0, magic.size()) == magic) return void(take(magic.size()));
     if (all.substr(0, 2) == "\x1f\x8b") refuse("is compressed by gzip; expected the file as it was before");
+    if (all.substr(0, 5) == "\x89MCAP")
+      refuse(
+          "is a log of a run (MCAP), which has what was recorded and no state; expected a file that `muster run "
+          "--save` wrote");
     const std::string_view version = all.substr(0, all.find('\n'));
     if (version.substr(0, kind.size()) == kind && version.size() < 2 * kind.size())
       refuse("is of version " + quote(version.substr(kind.size())) + " of the format, and this program reads version " +

@@ -18,11 +18,21 @@ class TableTimes {
     std::from_chars(end.data(), end.data() + end.size(), until_);
   }
 
-  // Warns once of each call where rows from time `first` to `last` [s] do not meet the run. `row` is the first of them,
-  // from 0; `what` is said of them, such as "the rows of robot 'a' are", and `so` follows, such as "it never moves".
-  void warn_of(const Step& k, double first, double last, std::size_t row, const std::string& what,
-               const std::string& so) const {
-    if (!(until_ > 0) || (first <= until_ && last >= 0)) return;
+  struct Span {
+    double first, second, last;  // [s]
+    std::size_t row;             // of the first, from 0
+  };
+
+  // Warns once of each call where rows do not meet the run, or only the first of them does. `what` is said of them,
+  // such as "the rows of robot 'a' are", and `so` follows, such as "it never moves".
+  void warn_of(const Step& k, const Span& span, const std::string& what, const std::string& so) const {
+    const auto [first, second, last, row] = span;
+    if (!(until_ > 0)) return;
+    if (first >= 0 && first <= until_ && second > until_)
+      return k.event("warning: " + rows_.at(row) + what + " at t = " + print(first) + " s, " + print(second) +
+                     " s and later, and the run ends at " + print(until_) +
+                     " s, so that only the first of them counts; are these milliseconds? expected seconds of the run");
+    if (first <= until_ && last >= 0) return;
     constexpr double since_1970 = 1e8;  // [s] three years, which no run has
     const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
                              : first > since_1970      ? "; are these seconds since 1970? expected "

@@ -12,6 +12,9 @@ namespace {
 
 constexpr double turn = 6.283185307179586;   // rad
 constexpr double fastest = 6 * turn;         // rad/s; robots and their wheels turn more slowly
+constexpr double fastest_sensed = 100;       // rad/s; gyroscopes of robots tell 2 to 70
+constexpr double unbounded = 1e6;            // of a range: none
+constexpr double gravity = 9.81;             // m/s2
 constexpr double strongest = 60;             // dBm, a kilowatt; radios of robots send some 20 dBm
 constexpr double thickest = 2, longest = 3;  // m, of a wall and from a robot to its antenna
 constexpr double highest = 200;              // m, of a wall or a door
@@ -59,6 +62,12 @@ std::string unit_doubt(std::string_view name, std::string_view unit, double valu
   if (unit == "rad/s" && std::abs(value) > fastest && name.find("range") == name.npos)
     return print_real(value) + " rad/s is " + about(std::abs(value) / turn) + " turns a second; are these degrees? " +
            print_real(value) + " degrees a second are " + about(value * degree) + " rad/s";
+  if (name == "gyro_range" && value > fastest_sensed && value < unbounded)
+    return print_real(value) + " rad/s is " + about(value / turn) + " turns a second; are these degrees? " +
+           print_real(value) + " degrees a second are " + about(value * degree) + " rad/s";
+  if (name == "accel_range" && value < gravity)
+    return print_real(value) + " m/s2 is less than gravity, so that a robot at rest is told as " + print_real(value) +
+           "; is this in g? " + print_real(value) + " g are " + about(value * gravity) + " m/s2";
   if (unit == "dBm" && name.find("power") != name.npos && value > strongest)
     return print_real(value) + " dBm is " + about(std::pow(10, value / 10 - 3)) + " W; is this milliwatts? " +
            print_real(value) + " mW are " + in_dbm(value);
@@ -103,6 +112,8 @@ std::string unit_hint(std::string_view unit, double value, double least, double 
     return "; without the minus? losses and deviations are positive: " + print_real(-value);
   if (unit == "m" && most >= globe && std::abs(value) > most)
     return "; a place on the globe (UTM)? expected metres from an origin of your own";
+  if (unit == "deg" && is_within(value * 1e-7, least, most) && std::abs(value) > 1e6)
+    return "; is this in 1e-7 degrees, as in MAVLink? they are " + about(value * 1e-7, 10);
   if (unit == "m/s" && value > most && is_within(value * centimetre, least, most)) return "; is this in cm/s?";
   if (unit == "rad" && std::abs(value) <= 360 && is_within(value * degree, least, most))
     return "; " + print_real(value) + " degrees are " + about(value * degree) + " rad";

@@ -256,7 +256,9 @@ class Scan {
     at_ = text_.find_first_of(stops, value);
     if (at_ == text_.npos) fail(value, "the value of " + quote(name) + " is cut off; expected a closing " + stops[0]);
     if (text_[at_] == '<')
-      fail(at_, "'<' in the value of " + quote(name) + "; expected a closing " + stops[0] + " or &lt;");
+      fail(at_, "'<' in the value of " + quote(name) + "; expected " +
+                    (name == "when" ? "the word below: when=\"robot/rover/pose/x below 4\", or " : "") + "a closing " +
+                    stops[0] + (name == "when" ? "" : " or &lt;"));
     check_references(value, text_.substr(value, at_ - value));
     ++at_;
     add_spot(start);

@@ -132,6 +132,10 @@ void read_at(const XmlElement& element, const Standard& standard, World& world) 
         throw invalid(own->place, "<swap> has no attribute \"at\" inside <at>, whose time it has");
       occasion.plugins.push_back(read_swap(child));
     } else if (child.name == "remove") {
+      for (const char* row : {"robot", "station"})
+        if (const XmlAttribute* who = child.attribute(row))
+          throw invalid(who->place, std::string("<remove> takes a plugin out, by instance=\"...\"; a ") + row +
+                                        " leaves by <leave " + row + "=\"" + who->value + "\"/>");
       expect_attributes(child, {"instance"});
       const XmlAttribute& instance = needed(child, "instance", "the name of an instance");
       occasion.plugins.push_back(

@@ -55,7 +55,10 @@ class RowReader {
     if (!element) return;
     if (joins_later && (*element->file_of || set_of(standard_, element->set).kind != SetKind::live))
       throw invalid(given.place, "<" + given.name + "> stands inside <at>, but rows of " + quote(element->set) +
-                                     " do not join a run; expected it in <world>");
+                                     " do not join a run; expected it in <world>" +
+                                     (given.name == "wall" ? "; what opens and closes on the way is a <door> in it, by "
+                                                             "<set path=\"door/NAME/state\" value=\"closed\"/>"
+                                                           : ""));
     check_attributes(given, *element);
     if (*element->file_of) return add_file(given, *element);
     declare(*element, given);

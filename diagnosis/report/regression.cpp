@@ -101,7 +101,9 @@ Json read_json(const fs::path& file) {
   Json json = Json::parse(text.str(), nullptr, false);
   if (!json.is_object() || json.value("format", "") != format_name)
     throw Error(Exit::invalid_input,
-                file.string() + ": not a regression test; expected \"format\": \"" + format_name + '"');
+                file.string() +
+                    ": is not what a diagnosis wrote; expected the folder that muster diagnose WORLD --data "
+                    "FILE --out FOLDER wrote");
   return json;
 }
 

@@ -37,7 +37,7 @@ struct ControlAttitude {
     const double tick = k.time() / static_cast<double>(k.tick());
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, that for most of it
     *k[command] = {0, 0, 0, 0};
-    double last = -std::numeric_limits<double>::infinity();
+    double last = -std::numeric_limits<double>::infinity(), second = last;
     std::size_t number = 0, own = 0, first = 0;
     for (const Row& row : k[commands]) {
       ++number;
@@ -47,12 +47,13 @@ struct ControlAttitude {
                        TableTimes::print(last) + " s; expected the rows of a robot in the order of time");
       last = row.t;
       if (++own == 1) first = number - 1;
+      if (own <= 2) second = row.t;
       if (row.t <= now) *k[command] = row.asked;
     }
     if (own == 0) throw BadInput("the file has no commands for it");
     if (k.tick() == 1 && last >= 0)  // what was asked before the run holds
       times.warn_of(
-          k, k[commands][first].t, last, first,
+          k, {k[commands][first].t, second, last, first},
           "the commands of robot '" + std::string(k.name("robot", static_cast<std::size_t>(k[robot]))) + "' are",
           "none is ever given");
   }

@@ -53,7 +53,8 @@ struct ControlRecorded {
     }
     const std::string name(k.name("robot", robot));
     if (samples.empty()) throw BadInput("has no command of robot '" + name + "' in its file; expected rows of it");
-    times.warn_of(k, samples.front().t, samples.back().t, first, "the commands of robot '" + name + "' are",
+    const double second = samples.size() > 1 ? samples[1].t : samples[0].t;
+    times.warn_of(k, {samples.front().t, second, samples.back().t, first}, "the commands of robot '" + name + "' are",
                   "it is driven by one command alone");
     is_read = true;
   }

@@ -52,6 +52,7 @@ struct PhysicsReplay {
     courses.resize(k[pose].size());
     std::vector<Measured> last(courses.size());
     std::vector<std::size_t> first(courses.size());  // row
+    std::vector<double> second(courses.size());      // [s]
     bool is_doubted = false, is_jumping = false;     // told once
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Measured& m = rows[i];
@@ -65,6 +66,7 @@ struct PhysicsReplay {
         k.event("warning: " + times.rows().at(i) + "robot '" + std::string(k.name("robot", robot)) + "': " + what);
       };
       if (course.track.empty()) course.has_height = !is_null(m.z), first[robot] = i;
+      if (second[robot] <= rows[first[robot]].t) second[robot] = m.t;  // as long as it is that of the first
       if (course.has_height == is_null(m.z)) fail("z is given in some rows only");
       const auto turn = turn_of(m);
       if (!turn) fail(why_no_turn(m).c_str());
@@ -83,7 +85,7 @@ struct PhysicsReplay {
     }
     for (std::size_t i = 0; i < courses.size(); ++i) {
       if (!courses[i].track.empty())
-        times.warn_of(k, rows[first[i]].t, last[i].t, first[i],
+        times.warn_of(k, {rows[first[i]].t, second[i], last[i].t, first[i]},
                       "the rows of robot '" + std::string(k.name("robot", i)) + "' are", "it never moves");
     }
     is_read = true;

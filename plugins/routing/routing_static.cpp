@@ -69,8 +69,10 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
       const auto refuse = [&](const std::string& what) { throw BadInput(places.at(i) + name(k, at) + ' ' + what); };
       if (next == at) refuse("sends to itself; expected another radio as next");
       if (to == at) refuse("is where the message is for; expected a radio that still has to send it");
-      if (!protocol.ways.emplace(std::pair(at, to), next).second)
-        refuse("has a row for " + (to == everyone ? "all others" : name(k, to)) + " already; expected one");
+      const auto [known, is_new] = protocol.ways.emplace(std::pair(at, to), next);
+      if (!is_new)
+        refuse("has a row for " + (to == everyone ? "all others" : name(k, to)) + " already, by " +
+               name(k, known->second) + "; expected one row, by " + name(k, known->second) + " or by " + name(k, next));
     }
     if (k.tick() <= 1) look_for_loops(k);
   }

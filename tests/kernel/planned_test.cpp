@@ -298,7 +298,8 @@ TEST_F(Planned, FaultsOfConditionsAndOfWhatTheyBring) {
             "when=\"...\", a condition");
   EXPECT_EQ(
       error("<at t='1'><wall name='w' from='0 0' to='1 0' material='m'/></at>"),
-      "world.xml:5:11: <wall> stands inside <at>, but rows of \"wall\" do not join a run; expected it in <world>");
+      "world.xml:5:11: <wall> stands inside <at>, but rows of \"wall\" do not join a run; expected it in <world>; what "
+      "opens and closes on the way is a <door> in it, by <set path=\"door/NAME/state\" value=\"closed\"/>");
   EXPECT_EQ(error("<at t='1'><robot name='a' at='0 0 0'/></at>"),
             "world.xml:5:11: a second robot is called \"a\"; the first is at world.xml:2:1; expected another name for "
             "one of them");

@@ -218,4 +218,76 @@ TEST(Habits, AMapSaysWhereItIsAndRefusesCornersOutOfOrder) {
                                   "centimetres? 150 cm are 1.5 m\n"));
 }
 
+TEST(Habits, RangesOfADatasheetInItsUnits) {
+  const ProgramFolder folder;
+  folder.write("world.xml",
+               "<world dt=\"0.1\" until=\"1\">\n<robot name=\"r\" at=\"0 0 0\"/><physics.planar/>\n"
+               "<sensors.imu robot=\"r\" gyro_range=\"250\" accel_range=\"4\"/></world>");
+  const std::string out = folder.muster({"check", "world.xml"}).out;
+  EXPECT_THAT(out,
+              testing::HasSubstr("world.xml:3:36: attribute \"gyro_range\": 250 rad/s is 39.79 turns a second; are "
+                                 "these degrees? 250 degrees a second are 4.363 rad/s"));
+  EXPECT_THAT(out,
+              testing::HasSubstr("world.xml:3:54: attribute \"accel_range\": 4 m/s2 is less than gravity, so that a "
+                                 "robot at rest is told as 4; is this in g? 4 g are 39.24 m/s2"));
+}
+
+TEST(Habits, TimesInMilliseconds) {
+  const ProgramFolder folder;
+  folder.write("poses.csv", "t[s],robot,x[m],y[m],z[m],yaw[rad]\n0,r,0,0,0,0\n100,r,0.03,0,0,0\n10000,r,3,0,0,0\n");
+  folder.write("world.xml",
+               "<world dt=\"0.1\" until=\"10\"><robot name=\"r\" at=\"0 0 0\"/><physics.replay "
+               "file=\"poses.csv\"/></world>");
+  EXPECT_THAT(
+      folder.muster({"check", "world.xml"}).out,
+      testing::HasSubstr("poses.csv:2:1: the rows of robot 'r' are at t = 0 s, 100 s and later, and the run ends "
+                         "at 10 s, so that only the first of them counts; are these milliseconds? expected "
+                         "seconds of the run"));
+}
+
+TEST(Habits, WordsInOtherPlaces) {
+  const ProgramFolder folder;
+  const auto refused = [&](const std::string& inside, const std::string& message) {
+    folder.write("world.xml", world_of("<robot name=\"r\" at=\"0 0 0\"/>" + inside));
+    const auto outcome = folder.muster({"check", "world.xml"});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_THAT(outcome.err, testing::HasSubstr(message));
+  };
+  refused("<at t=\"0.4\"><remove robot=\"r\"/></at>",
+          "<remove> takes a plugin out, by instance=\"...\"; a robot leaves by <leave robot=\"r\"/>");
+  refused("<at t=\"0.4\"><wall name=\"w\" from=\"0 0\" to=\"1 0\" material=\"m\"/></at>",
+          "do not join a run; expected it in <world>; what opens and closes on the way is a <door> in it, by <set "
+          "path=\"door/NAME/state\" value=\"closed\"/>");
+  refused(
+      "<at when=\"robot/r/pose/x < 4\"></at>",
+      "'<' in the value of \"when\"; expected the word below: when=\"robot/rover/pose/x below 4\", or a closing \"");
+}
+
+TEST(Habits, FilesAndFoldersOfOthers) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<robot name=\"r\" at=\"0 0 0\"/>"));
+  expect_error(folder.muster({"run", "world.xml", "--out", "result.csv"}), 2,
+               "--out: result.csv is called like a file, and a folder is made; expected --out result, or --wide "
+               "result.csv for what is recorded, in one file");
+  expect_error(folder.muster({"run", "world.xml", "--out", "plots", "--plot", "robot/r/x"}), 2,
+               "--plot \"robot/r/x\": \"x\" is a column and no table; expected \"robot/r/pose/x\"");
+  std::filesystem::create_directory(folder.path() / "out");
+  folder.write("out/run.json", "{}");
+  expect_error(folder.muster({"view", "out"}), 2,
+               "there is no verb \"view\"; \"out\" is the record of a run: muster report out makes its page, "
+               "out/run.html (muster --help lists the verbs)");
+  folder.write("run.mcap", "\x89MCAP0\r\n");
+  expect_error(folder.muster({"run", "world.xml", "--restore", "run.mcap"}), 2,
+               "run.mcap: is a log of a run (MCAP), which has what was recorded and no state; expected a file that "
+               "`muster run --save` wrote");
+  expect_error(folder.muster({"diagnose", "--check", "world.xml"}), 2,
+               "world.xml: is not what a diagnosis wrote; expected the folder that muster diagnose WORLD --data FILE "
+               "--out FOLDER wrote");
+  folder.write("d.csv", "t[s],tx,rx,rssi[dBm]\n0,a,b,-50\n");
+  expect_error(
+      folder.muster({"fit", "world.xml", "--data", "d.csv", "--table", "robot/*/odometry"}), 2,
+      "d.csv:1: has readings of radios, and --table \"robot/*/odometry\" asks for rows of such a table; without "
+      "--table, the channel is fitted to them");
+}
+
 }  // namespace

@@ -125,9 +125,9 @@ TEST_F(Static, RefusesATableThatCannotBe) {
   EXPECT_THAT(error("r0,r2,r1\nr2,r2,r1\n"),
               HasSubstr("routes.csv:3:1: r2 is where the message is for; expected a radio "
                         "that still has to send it"));
-  EXPECT_THAT(error("r0,r2,r1\nr0,r2,r2\n"), HasSubstr("routes.csv:3:1: r0 has a row for r2 already; expected one"));
-  EXPECT_THAT(error("r0,,r1\nr0,,r2\n"),
-              HasSubstr("routes.csv:3:1: r0 has a row for all others already; expected one"));
+  EXPECT_THAT(error("r0,r2,r1\nr0,r2,r2\n"),
+              HasSubstr("routes.csv:3:1: r0 has a row for r2 already, by r1; expected one row, by r1 or by r2"));
+  EXPECT_THAT(error("r0,,r1\nr0,,r2\n"), HasSubstr("routes.csv:3:1: r0 has a row for all others already, by "));
   EXPECT_THAT(error("r0,r9,r1\n"), HasSubstr("routes.csv:2"));
   EXPECT_THAT(error("r0,r2,r1\n", "at,too,next\n"),
               HasSubstr("routes.csv:1:4: column \"too\" means nothing here; expected one of at, to, next; did you mean "
