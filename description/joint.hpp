@@ -44,6 +44,7 @@ struct Joint {
   double max_speed = std::numeric_limits<double>::infinity();   // [rad/s] or [m/s]
   double damping = 0;                                           // [N m s/rad] or [N s/m]
   double friction = 0;                                          // Coulomb's, of the joint itself [N m] or [N]
+  bool is_in_degrees = false;  // its angles are no radians, it seems: a warning asks so
 };
 
 }  // namespace muster::description

@@ -57,12 +57,52 @@ class Reader {
     }
   }
 
+  // Of a <body> and all that it carries.
+  static int joints_of(const XMLElement& body) {
+    int result = 0;
+    for (const auto* child = body.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      const std::string kind = child->Name();
+      if (kind == "joint" || kind == "freejoint") ++result;
+      if (kind == "body") result += joints_of(*child);
+    }
+    return result;
+  }
+
+  // Bodies beside the robot, which is the one that has most joints; where several have as many, it is not known.
+  void refuse_scenery(const XMLElement& world) const {
+    std::vector<const XMLElement*> bodies;
+    for (const auto* one = world.FirstChildElement("body"); one; one = one->NextSiblingElement("body"))
+      bodies.push_back(one);
+    std::stable_sort(bodies.begin(), bodies.end(),
+                     [](const auto* a, const auto* b) { return joints_of(*a) > joints_of(*b); });
+    if (joints_of(*bodies[0]) == joints_of(*bodies[1])) return;
+    const auto in_words = [](const XMLElement& body) {
+      return body.Attribute("name") ? "'" + std::string(body.Attribute("name")) + "'" : "the <body>";
+    };
+    std::string rest;
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+      const int joints = joints_of(*bodies[i]);
+      rest += (i == 1 ? "" : ", ") + in_words(*bodies[i]) + " (line " + std::to_string(bodies[i]->GetLineNum()) + ", " +
+              (joints == 0   ? "no joints"
+               : joints == 1 ? "one joint"
+                             : std::to_string(joints) + " joints") +
+              ")";
+    }
+    source_.fail(
+        bodies[1]->GetLineNum(),
+        "<worldbody> has " + std::to_string(bodies.size()) + " bodies; a model is one robot: expected " +
+            in_words(*bodies[0]) + " alone; take out " + rest +
+            (bodies.size() == 2 ? ", and put it into the world as" : ", and put them into the world, each as") +
+            " a <mesh> or a <robot> of its own");
+  }
+
   const XMLElement& the_body() {
     const auto* world = root_.FirstChildElement("worldbody");
     if (!world) source_.fail(root_.GetLineNum(), "has no <worldbody>; expected one with the robot's <body>");
     const auto* body = world->FirstChildElement("body");
     if (!body) source_.fail(world->GetLineNum(), "<worldbody> has no <body>; expected that of the robot");
     if (const auto* second = body->NextSiblingElement("body")) {
+      refuse_scenery(*world);
       const char* name = second->Attribute("name");
       source_.fail(second->GetLineNum(),
                    "<worldbody> has a second <body>; a model is one robot: expected one <body>, and " +

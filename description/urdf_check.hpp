@@ -73,6 +73,14 @@ void read_gazebo(const Source& source, const tinyxml2::XMLElement& root, Robot& 
 // Without any drive declared: takes wheels that turn about the robot's y axis on both of its sides for one, with a
 // warning that has it in full.
 void derive_drive(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+// The same, before it: refuses a wheel that carries the robot's body, since <parent> and <child> are exchanged; warns
+// of wheels that can be seen and have no shape.
+void refuse_exchanged(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+void warn_of_shapeless_wheels(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
+// True of names such as "wheel_left_joint", and not of casters.
+bool is_named_wheel(std::string name);
+// The <joint> or <link> of that name in <robot>; null if there is none.
+const tinyxml2::XMLElement* find_element(const tinyxml2::XMLElement& root, const char* kind, const std::string& name);
 // After the drive is known: warns of joints that a <transmission> or <ros2_control> drives and muster does not.
 void warn_of_undriven(const Source& source, const tinyxml2::XMLElement& root, Robot& robot);
 // Sets a drive's wheels, those of each side from the first on.

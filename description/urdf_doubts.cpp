@@ -101,6 +101,9 @@ class Doubts {
     const auto values = parse_numbers(text ? text : "");
     for (const double angle : values ? *values : std::vector<double>()) {
       if (!(std::abs(angle) > turn)) continue;
+      const char* name = element.Parent()->ToElement()->Attribute("name");
+      for (Joint& joint : robot_.joints)
+        if (element.Parent()->Value() == std::string("joint") && name && joint.name == name) joint.is_in_degrees = true;
       return warn(element, owner + ": <origin> rpy=\"" + text + "\": " + print_number(angle) +
                                " rad is more than a full turn; are these degrees? " + in_radians(angle));
     }
@@ -129,14 +132,6 @@ class Doubts {
   bool said_friction_ = false;  // of all wheels alike
 };
 
-const XMLElement* joint_called(const XMLElement& root, const std::string& name) {
-  for (const auto* each = root.FirstChildElement("joint"); each; each = each->NextSiblingElement("joint")) {
-    const char* own = each->Attribute("name");
-    if (own && name == own) return each;
-  }
-  return nullptr;
-}
-
 // `rpy="-1.570796 0 0"` of degrees; "" where no angle is beyond a turn.
 std::string meant_angles(const char* rpy) {
   const auto values = parse_numbers(rpy ? rpy : "");
@@ -154,7 +149,7 @@ std::string meant_angles(const char* rpy) {
 void refuse_degrees(const Source& source, const XMLElement& root, const Robot& robot, std::size_t joint) {
   for (std::size_t next = joint; next < robot.joints.size();) {
     const Joint& here = robot.joints[next];
-    const XMLElement* element = joint_called(root, here.name);
+    const XMLElement* element = find_element(root, "joint", here.name);
     const XMLElement* origin = element ? element->FirstChildElement("origin") : nullptr;
     const std::string meant = origin ? meant_angles(origin->Attribute("rpy")) : "";
     if (!meant.empty())

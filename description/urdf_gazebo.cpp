@@ -198,9 +198,39 @@ class Gazebo {
     guess.wheel_radius =
         read.number(plugin, "wheel_radius", read.number(plugin, {"wheel_diameter", "wheelDiameter"}, 0) / 2);
     guess.effective_base = read.number(plugin, {"wheel_separation", "wheelSeparation"}, 0);
+    check_diameter(plugin, guess);
     guess.max_torque = read.number(plugin, {"max_wheel_torque", "torque", "wheelTorque"}, 0);
     guess.take(source_, plugin, "is taken from <gazebo>", robot_);
     return true;
+  }
+
+  // The wheels' size at the tag that gives it, in that tag's own terms: a radius or a diameter.
+  void check_diameter(const XMLElement& plugin, const DriveGuess& guess) const {
+    const XMLElement* given = nullptr;
+    for (const char* name : {"wheelDiameter", "wheel_diameter", "wheel_radius"})
+      if (const XMLElement* one = plugin.FirstChildElement(name)) given = one;  // the last is the one that counts
+    if (!given || !(guess.wheel_radius > 0)) return;
+    for (const auto* side : {&guess.left, &guess.right})
+      for (const std::size_t joint : *side) check_size(*given, guess.wheel_radius, robot_.joints[joint]);
+  }
+
+  void check_size(const XMLElement& given, double radius, const Joint& joint) const {
+    const double real = round_about_axle(robot_, joint);
+    if (real == 0 || std::abs(real - radius) <= placement_tolerance) return;
+    const std::string name = given.Name();
+    const bool is_radius = name == "wheel_radius";
+    const std::string own = is_radius ? "radius" : "diameter", other = is_radius ? "diameter" : "radius";
+    const std::string meant = print_number(is_radius ? real : 2 * real);
+    const std::string shape = " of the collision shape of the wheel of joint '" + joint.name + "'";
+    constexpr double alike = 0.02;  // of a length rounded to two digits
+    const auto is_times = [&](double factor) { return std::abs(radius - factor * real) < alike * factor * real; };
+    const std::string what = is_times(is_radius ? 2 : 0.5) ? " is the " + other + shape + ", and not its " + own
+                                                           : " contradicts the " + own + shape + ", which is " + meant;
+    std::string expected = "; expected ";
+    for (const auto& [unit, parts] : {std::pair{"millimetres", 1000.0}, std::pair{"centimetres", 100.0}})
+      if (is_times(parts)) expected = std::string("; is it in ") + unit + "? expected ";
+    source_.fail(given.GetLineNum(), tag(given) + print_number(is_radius ? radius : 2 * radius) + what + expected +
+                                         "<" + name + ">" + meant + "</" + name + ">");
   }
 
   std::size_t joint_of(const XMLElement& element) const {

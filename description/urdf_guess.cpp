@@ -110,8 +110,10 @@ void DriveGuess::take(const Source& source, const XMLElement& element, const std
 }
 
 void derive_drive(const Source& source, const XMLElement& root, Robot& robot) {
-  // Who writes <muster> without a drive means a robot without one.
-  if (robot.is_driven() || root.FirstChildElement("muster")) return;
+  if (robot.is_driven()) return;
+  refuse_exchanged(source, root, robot);
+  if (root.FirstChildElement("muster")) return;  // who writes it without a drive means a robot without one
+  warn_of_shapeless_wheels(source, root, robot);
   const std::vector<Wheel> wheels = wheels_of(robot);
   if (wheels.empty()) return;
   std::vector<Wheel> left, right;

@@ -30,12 +30,31 @@ void warn_of_joints_in(const Source& source, const XMLElement& group, bool only_
   }
 }
 
+// The joint, or the first above it, whose angles look like degrees; null where there is none.
+const Joint* joint_in_degrees(const Robot& robot, const Joint& joint) {
+  for (const Joint* one = &joint;; one = &robot.joints[one->parent - 1]) {
+    if (one->is_in_degrees) return one;
+    if (one->parent == 0) return nullptr;
+  }
+}
+
+// What a wheel turns about instead of the robot's y axis.
+std::string axis_in_words(const Eigen::Vector3d& axis) {
+  constexpr double degree = 0.017453292519943295, skew = 0.1;
+  int nearest = 0;
+  axis.cwiseAbs().maxCoeff(&nearest);
+  if (axis.cross(Eigen::Vector3d::Unit(nearest)).norm() < skew)
+    return std::string("the robot's ") + "xyz"[nearest] + " axis";
+  const double off = std::atan2(axis.cross(Eigen::Vector3d::UnitY()).norm(), std::abs(axis.y()));
+  return "an axis " + print_number(off / degree) + " degrees off the robot's y axis";
+}
+
+}  // namespace
+
 bool is_named_wheel(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return c < 128 ? std::tolower(c) : c; });
   return name.find("wheel") != std::string::npos && name.find("caster") == std::string::npos;
 }
-
-}  // namespace
 
 std::string wheels_that_stand(const Robot& robot) {
   std::string result;
@@ -61,13 +80,16 @@ std::string wheels_about_others(const Robot& robot) {
     const Eigen::Matrix3d turned = (*carrier * joint.origin).linear();
     const Eigen::Vector3d axis = turned * joint.axis;
     if (axis.cross(Eigen::Vector3d::UnitY()).norm() < skew) continue;
-    int nearest = 0;
-    axis.cwiseAbs().maxCoeff(&nearest);
+    result += (result.empty() ? "joint '" : ", joint '") + joint.name + "' of link '" + wheel.name + "' (" +
+              robot.file + ":" + std::to_string(wheel.line) + ") turns about " + axis_in_words(axis);
+    if (const Joint* doubtful = joint_in_degrees(robot, joint)) {
+      result += ", by the angles in the <origin> of joint '" + doubtful->name +
+                "', which look like degrees: expected them in radians";
+      continue;  // an axis that follows from them is none to write
+    }
     const Eigen::Vector3d own = turned.transpose() * Eigen::Vector3d::UnitY();
     const auto number = [](double value) { return print_number(std::abs(value) < 1e-6 ? 0 : value); };
-    result += (result.empty() ? "joint '" : ", joint '") + joint.name + "' of link '" + wheel.name + "' (" +
-              robot.file + ":" + std::to_string(wheel.line) + ") turns about the robot's " + "xyz"[nearest] +
-              " axis, and a wheel about y: expected <axis xyz=\"" + number(own.x()) + ' ' + number(own.y()) + ' ' +
+    result += ", and a wheel about y: expected <axis xyz=\"" + number(own.x()) + ' ' + number(own.y()) + ' ' +
               number(own.z()) + "\"/>";
   }
   return result;
