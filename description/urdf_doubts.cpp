@@ -152,7 +152,7 @@ void refuse_degrees(const Source& source, const XMLElement& root, const Robot& r
     const XMLElement* element = find_element(root, "joint", here.name);
     const XMLElement* origin = element ? element->FirstChildElement("origin") : nullptr;
     const std::string meant = origin ? meant_angles(origin->Attribute("rpy")) : "";
-    if (!meant.empty())
+    if (origin && !meant.empty())
       source.fail(origin->GetLineNum(), "joint '" + here.name + "': <origin> rpy=\"" + origin->Attribute("rpy") +
                                             "\": more than a full turn in radians; are these degrees? expected " +
                                             meant);
