@@ -60,6 +60,17 @@ TEST_F(Isolated, GoesOnTheSameAfterWhatChangesTheRun) {
   EXPECT_EQ(plain.digest(), apart.digest());
 }
 
+// Their number changes each tick, in the process of the run.
+TEST_F(Isolated, KnowsTheRowsOfListedSets) {
+  const std::string asking = two_robots + "<material name='m' loss='2'/>\n<material name='n' loss='2'/>\n" +
+                             "<toy.list name='l'/>\n<toy.ask name='ask'/>\n";
+  Simulation sim = isolated(asking, {{"ask", {}}});
+  for (int tick = 1; tick < 8; ++tick) {
+    step(sim);
+    EXPECT_EQ(cell(sim, "robot/*/asked", 5), tick % 5 + 1);
+  }
+}
+
 TEST_F(Isolated, TellsWhatItTellsInTheProcess) {
   const std::string faults = two_robots +
                              "<material name='m' loss='2'/>\n<material name='n' loss='2'/>\n<toy.fault name='f' "

@@ -68,6 +68,11 @@ TEST(Crash, InAProcessOfItsOwnEndsTheRunOrCostsThatPluginOnly) {
   expect_error(run("mine=restart"), 3,
                "world.xml:1:36: mine (test.crash): step failed at tick 3 (t = 0.3 s): its own process ended with a "
                "segmentation fault (SIGSEGV), and so did the one that took its place in this step");
+  folder.write("world.xml", world_of("<test.crash name=\"mine\" how=\"exit\"/>"));
+  expect_error(
+      run("mine"), 3,
+      "world.xml:1:36: mine (test.crash): step failed at tick 3 (t = 0.3 s): its own process ended with exit(0)");
+  folder.write("world.xml", world_of("<test.crash name=\"mine\"/>"));
   const auto without = run("mine=without");
   EXPECT_EQ(without.exit, 0);
   EXPECT_THAT(without.out, testing::HasSubstr("t = 0.3 s  mine: warning: its own process ended with a segmentation "

@@ -6,8 +6,8 @@ namespace {
 using namespace muster;
 
 struct Asked {
-  static constexpr const char* columns = "robots materials unknown robot material";  // counts, then first letters
-  double robots, materials, unknown, robot, material;
+  static constexpr const char* columns = "robots materials unknown robot material endpoints";  // counts, first letters
+  double robots, materials, unknown, robot, material, endpoints;
 };
 
 struct Ask {
@@ -24,6 +24,7 @@ struct Ask {
       rows[i].unknown = k.rows("no such set");
       rows[i].robot = k.name("robot", i).at(0);
       rows[i].material = k.name("material", i).at(0);
+      rows[i].endpoints = k.rows("endpoint");
     }
   }
 
