@@ -47,7 +47,7 @@ struct Verb {
   std::string (*help)() = nullptr;  // of a verb that declares its options elsewhere
 };
 
-// Those of this program: all_verbs.cpp or first_verbs.cpp.
+// Those of this program (verbs.cpp).
 std::span<const Verb> verbs();
 
 // ---- What verbs share (common.cpp) ----

@@ -15,8 +15,8 @@
 namespace muster {
 
 // Saves that state when made, and restores it in its destructor at the latest: locales, the working directory, the
-// signal mask and handlers of signals that end a run, arithmetic; what standard output and error are
-// is told, and not restored. Takes some microseconds: for loading and for single steps.
+// signal mask, handlers of signals that end a run, arithmetic. A standard output or error that was exchanged is told,
+// and not restored. Takes some microseconds: for loading and for single steps.
 class ProcessGuard {
  public:
   ProcessGuard();

@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "description/robot.hpp"
-#include "files.hpp"
+#include "refusals.hpp"
 
 namespace muster::description {
 namespace {
@@ -50,17 +49,6 @@ std::string visual(const std::string& shape) { return "<visual>" + shape + "</vi
 std::string two_wheels(const std::string& shapes, const std::string& rest = "") {
   return body() + wheel("l", shapes) + wheel("r", shapes) + joint("lj", "base_link", "l", "xyz='0 0.12 0.033'") +
          joint("rj", "base_link", "r", "xyz='0 -0.12 0.033'") + rest;
-}
-
-std::string refusal_of(const std::string& elements) {
-  Files files;
-  const std::string path = files.write("r.urdf", "<robot name='r'>\n" + elements + "</robot>\n");
-  try {
-    read_robot(path);
-  } catch (const std::runtime_error& error) {
-    return files.inside(error.what());
-  }
-  return "no error";
 }
 
 std::vector<std::string> warnings_of(const std::string& elements) {

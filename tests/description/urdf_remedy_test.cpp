@@ -2,23 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "description/robot.hpp"
-#include "files.hpp"
+#include "refusals.hpp"
 
 namespace muster::description {
 namespace {
-
-std::string refusal_of(const std::string& elements) {
-  Files files;
-  const std::string path = files.write("r.urdf", "<robot name='r'>\n" + elements + "</robot>\n");
-  try {
-    read_robot(path);
-  } catch (const std::runtime_error& error) {
-    const std::string message = error.what();
-    return message.rfind(path, 0) == 0 ? message.substr(path.size() + 1) : message;
-  }
-  return "no error";
-}
 
 const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>";
 std::string massive(const std::string& name) {
@@ -41,10 +28,10 @@ std::string wheels(const std::string& left, const std::string& mount = "0 0 0") 
 
 TEST(UrdfRemedy, ALinkWithoutMassHasThatOfItsShapes) {
   const std::string box = "<collision><geometry><box size='0.3 0.2 0.1'/></geometry></collision></link>\n";
-  EXPECT_EQ(
-      refusal_of("<link name='a'>\n<inertial>\n<mass value='0'/>" + inertia + box),
-      "4: link 'a': <mass value=\"0\"/>; expected the mass in kg, above 0 (its collision shapes filled with water "
-      "weigh 6 kg), or no <inertial> if the link is a frame without mass");
+  EXPECT_EQ(refusal_of("<link name='a'>\n<inertial>\n<mass value='0'/>" + inertia + box),
+            "r.urdf:4: link 'a': <mass value=\"0\"/>; expected the mass in kg, above 0 (its collision shapes filled "
+            "with water "
+            "weigh 6 kg), or no <inertial> if the link is a frame without mass");
 }
 
 // A link with a shape and no mass is a frame, and as a body it is most likely forgotten; a link below it may hold the
@@ -90,13 +77,14 @@ TEST(UrdfRemedy, ALinkIsNoJoint) {
 
 TEST(UrdfRemedy, AnglesInDegreesAreToldBeforeTheAxisThatTheyGive) {
   EXPECT_EQ(refusal_of(wheels("-1.5707963267948966 0 0")), "no error");
+  EXPECT_EQ(refusal_of(wheels("-90 0 0")),
+            "r.urdf:6: joint 'l_joint': <origin> rpy=\"-90 0 0\": more than a full turn in radians; are these degrees? "
+            "expected "
+            "rpy=\"-1.570796 0 0\"");
   EXPECT_EQ(
-      refusal_of(wheels("-90 0 0")),
-      "6: joint 'l_joint': <origin> rpy=\"-90 0 0\": more than a full turn in radians; are these degrees? expected "
-      "rpy=\"-1.570796 0 0\"");
-  EXPECT_EQ(refusal_of(wheels("-1.5707963267948966 0 0", "0 0 15")),
-            "9: joint 'm': <origin> rpy=\"0 0 15\": more than a full turn in radians; are these degrees? expected "
-            "rpy=\"0 0 0.261799\"");
+      refusal_of(wheels("-1.5707963267948966 0 0", "0 0 15")),
+      "r.urdf:9: joint 'm': <origin> rpy=\"0 0 15\": more than a full turn in radians; are these degrees? expected "
+      "rpy=\"0 0 0.261799\"");
   EXPECT_NE(refusal_of(wheels("-1.4 0 0")).find("does not turn about the body's +y axis"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// The verbs of muster.
+// The verbs of muster, and of muster_runs, which has those that run worlds alone.
 #include "verbs.hpp"
 
 namespace muster::cli {
@@ -8,6 +8,7 @@ constexpr Verb all[] = {
     {"run", run_run, "run a world"},
     {"check", run_check, "read a world, load and link its plugins, and say what is wrong"},
     {"swap", run_swap, "run a world and exchange an instance's plugin on the way"},
+#ifndef MUSTER_RUNS
     {"compare", run_compare, "run a world with instances exchanged, or several worlds, and say what differs"},
     {"sweep", run_sweep, "run a plan of parameters, plugins, worlds and seeds, and say what came of it"},
     {"bundle", run_bundle, "pack a run with all that it needs, and see whether another machine gets the same digest"},
@@ -27,6 +28,7 @@ constexpr Verb all[] = {
     {"features", run_features, "distance, walls and angles of each measured reading"},
     {"import", run_import, "bring a foreign file into the format of measured data"},
     {"new", run_new, "begin a plugin or a world of your own, in a folder outside the tree"},
+#endif
 };
 
 }  // namespace
