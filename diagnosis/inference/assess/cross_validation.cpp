@@ -41,13 +41,6 @@ std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& c
   return numbered(cells);
 }
 
-Folds::Fold::Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in,
-                  std::vector<Index> out)
-    : fitted(std::move(in)),
-      left_out(std::move(out)),
-      field(sites.of(fitted)),
-      whitener(field, noise::StatedTables::nearest(covariance)) {}
-
 Folds::Folds(const noise::Sites& sites, const std::vector<int>& block_of_row, const std::vector<Index>& row_of,
              const noise::Covariance& covariance, uint64_t seed)
     : seed_(seed) {
@@ -64,19 +57,25 @@ Folds::Folds(const noise::Sites& sites, const std::vector<int>& block_of_row, co
     for (std::size_t i = 0; i < block_of_.size(); ++i) {
       if (is_in(block_of_[i], k)) readings.push_back(static_cast<Index>(i));
     }
-    folds_.push_back(std::make_unique<Fold>(sites, covariance, std::move(rows), std::move(readings)));
+    auto field = std::make_shared<const noise::Field>(sites.of(rows));
+    noise::Whitener whitener(*field, noise::StatedTables::nearest(covariance));
+    folds_.push_back({std::move(rows), std::move(readings), std::move(field), std::move(whitener)});
   }
+}
+
+Folds::Folds(const Folds& other, const noise::Covariance& covariance) : Folds(other) {
+  for (Fold& fold : folds_) fold.whitener = noise::Whitener(*fold.field, noise::StatedTables::nearest(covariance));
 }
 
 Eigen::VectorXd Folds::squared_errors(const Sample& rows, const Sample& readings) const {
   Eigen::VectorXd result(readings.y.size());
   for (const auto& fold : folds_) {
-    const Eigen::MatrixXd x = fold->whitener(rows.design(fold->fitted, Eigen::all));
+    const Eigen::MatrixXd x = fold.whitener(rows.design(fold.fitted, Eigen::all));
     const auto basis = noise::basis_of(x);
-    const Eigen::VectorXd explained = basis.q.transpose() * fold->whitener(rows.y(fold->fitted)).col(0);
-    const Eigen::VectorXd mean = readings.design(fold->left_out, Eigen::all) * basis.coefficients(explained, x.cols());
+    const Eigen::VectorXd explained = basis.q.transpose() * fold.whitener(rows.y(fold.fitted)).col(0);
+    const Eigen::VectorXd mean = readings.design(fold.left_out, Eigen::all) * basis.coefficients(explained, x.cols());
     for (Index k = 0; k < mean.size(); ++k) {
-      const Index i = fold->left_out[static_cast<std::size_t>(k)];
+      const Index i = fold.left_out[static_cast<std::size_t>(k)];
       const double off = readings.bounds ? readings.bounds->error(static_cast<std::size_t>(i), readings.y[i], mean[k])
                                          : readings.y[i] - mean[k];
       result[i] = off * off;

@@ -56,6 +56,8 @@ class Folds {
   // Deals blocks of rows, numbered from 0, to five folds. `row_of`: of each reading.
   Folds(const noise::Sites& sites, const std::vector<int>& blocks, const std::vector<Index>& row_of,
         const noise::Covariance& covariance, uint64_t seed);
+  // The same folds at another covariance.
+  Folds(const Folds& other, const noise::Covariance& covariance);
 
   int blocks() const { return blocks_; }
   // False with fewer than two blocks: nothing is left to fit on.
@@ -72,16 +74,14 @@ class Folds {
  private:
   struct Fold {
     std::vector<Index> fitted, left_out;  // rows, readings
-    noise::Field field;
+    std::shared_ptr<const noise::Field> field;
     noise::Whitener whitener;
-    Fold(const noise::Sites& sites, const noise::Covariance& covariance, std::vector<Index> in, std::vector<Index> out);
-    Fold(const Fold&) = delete;
   };
 
   uint64_t seed_;
   int blocks_ = 0;
   std::vector<int> block_of_;  // of each reading
-  std::vector<std::unique_ptr<Fold>> folds_;
+  std::vector<Fold> folds_;
 };
 
 }  // namespace muster::inference

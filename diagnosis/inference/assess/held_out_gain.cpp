@@ -40,16 +40,12 @@ class Errors {
   std::vector<Eigen::MatrixXd> at_readings_;
 };
 
-Folds folds_of(const ModelState& state, const std::vector<int>& parts) {
-  return {state.field().sites(), parts, state.rows().row_of(), state.fit.covariance, state.options().seed};
-}
-
 std::vector<int> blocks_of(const ModelState& state) {
   return inference::blocks_of(state.field().sites(), state.fit.covariance);
 }
 
-void add_gains_of_blocks(const ModelState& state, Result& result) {
-  const Folds folds = folds_of(state, blocks_of(state));
+void add_gains_of_blocks(const ModelState& state, KeptFolds& kept, Result& result) {
+  const Folds& folds = kept.of(state, blocks_of(state));
   if (!folds.possible()) return;
   const Errors errors(state, folds);
   const Eigen::VectorXd base = errors.first(0);
@@ -81,9 +77,9 @@ bool concerns_several(const Term& term, const std::vector<int>& parts) {
   return false;
 }
 
-void add_gains_of_groups(const ModelState& state, const Grouping& grouping, Result& result) {
+void add_gains_of_groups(const ModelState& state, const Grouping& grouping, KeptFolds& kept, Result& result) {
   const std::vector<int>& parts = grouping.of_row;
-  const Folds folds = folds_of(state, parts);
+  const Folds& folds = kept.of(state, parts);
   if (!folds.possible()) return;
   const Errors errors(state, folds);
   const auto elsewhere = [&](const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
@@ -131,9 +127,9 @@ Eigen::VectorXd white_errors(const noise::Whitener& whitener, const Eigen::Matri
   return result;
 }
 
-std::optional<std::size_t> refuted_at_places(const ModelState& state) {
+std::optional<std::size_t> refuted_at_places(const ModelState& state, KeptFolds& kept) {
   const std::vector<int> blocks = blocks_of(state);
-  const Folds folds = folds_of(state, blocks);
+  const Folds& folds = kept.of(state, blocks);
   if (!folds.possible()) return {};
   const bool many = folds.blocks() >= thresholds::fewest_refuting_blocks;
   const Errors errors(state, folds);
@@ -179,16 +175,30 @@ std::optional<std::size_t> refuted_at_times(const ModelState& state) {
 
 }  // namespace
 
-std::optional<std::size_t> most_refuted(const ModelState& state) {
+const Folds& KeptFolds::of(const ModelState& state, const std::vector<int>& parts) {
+  const noise::Covariance& at = state.fit.covariance;
+  if (folds_ && parts == parts_ && state.rows().row_of() == row_of_) {
+    if (at == covariance_) return *folds_;
+    folds_.emplace(Folds(*folds_, at));
+  } else {
+    parts_ = parts;
+    row_of_ = state.rows().row_of();
+    folds_.emplace(state.field().sites(), parts, row_of_, at, state.options().seed);
+  }
+  covariance_ = at;
+  return *folds_;
+}
+
+std::optional<std::size_t> most_refuted(const ModelState& state, KeptFolds& kept) {
   if (state.terms.empty()) return {};
-  const auto at_places = refuted_at_places(state);
+  const auto at_places = refuted_at_places(state, kept);
   return at_places ? at_places : refuted_at_times(state);
 }
 
-void add_held_out_gains(const ModelState& state, Result& result) {
-  add_gains_of_blocks(state, result);
+void add_held_out_gains(const ModelState& state, KeptFolds& kept, Result& result) {
+  add_gains_of_blocks(state, kept, result);
   for (const Grouping& grouping : state.problem().layout->groupings(state.rows(), state.field().sites()))
-    add_gains_of_groups(state, grouping, result);
+    add_gains_of_groups(state, grouping, kept, result);
 }
 
 }  // namespace muster::inference

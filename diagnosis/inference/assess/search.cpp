@@ -62,14 +62,14 @@ Result Search::run() {
   const Eigen::VectorXd coefficients = model.coefficients(design.cols());
   result_.base_coefficients = coefficients.head(state_.sensitivities());
   result_.mean = design * coefficients;
-  add_held_out_gains(state_, result_);
+  add_held_out_gains(state_, folds_, result_);
   check_what_is_left(result_, model);
   return result_;
 }
 
 // The worst first: each leaves another model and another covariance behind.
 void Search::withdraw_refuted() {
-  while (const auto worst = most_refuted(state_)) {
+  while (const auto worst = most_refuted(state_, folds_)) {
     const Term& term = state_.terms[*worst];
     result_.trials.push_back({term.candidate->id, term.candidate->label_of(term.theta), term.gain, term.log_p,
                               term.log_p, false, "refuted by readings at places left out"});

@@ -3,6 +3,7 @@
 
 #include "diagnosis/inference/assess/expected_separability.hpp"
 #include "diagnosis/inference/assess/finding.hpp"
+#include "diagnosis/inference/assess/held_out_gain.hpp"
 #include "diagnosis/inference/assess/parameter_uncertainty.hpp"
 
 namespace muster::inference {
@@ -32,6 +33,7 @@ class Search {
   void check_what_is_left(Result& result, const WhitenedModel& model);
 
   ModelState state_;
+  KeptFolds folds_;
   Result result_;
 };
 

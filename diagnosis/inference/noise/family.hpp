@@ -58,6 +58,8 @@ struct Covariance {
   double decorrelation() const;     // m
   double reading_variance() const;  // squared units of a reading
   double shared() const;            // correlation between anchors, 0 to 1
+
+  bool operator==(const Covariance& other) const { return family == other.family && theta == other.theta; }
 };
 
 // A field as a model states it, without a family of correlations.

@@ -58,8 +58,7 @@ noise::Fit LongRangeRows::fitted(const Eigen::VectorXd& y, const Eigen::MatrixXd
   noise::Covariance from{family, near.theta};
   from.theta[1] += noise::log_scale_of(family) - noise::log_scale_of(near.family);
   const auto same = [&](const Known& known) {
-    return known.start.family == from.family && known.start.theta == from.theta &&
-           known.design.cols() == design.cols() && known.y == y && known.design == design;
+    return known.start == from && known.design.cols() == design.cols() && known.y == y && known.design == design;
   };
   if (const auto known = std::find_if(known_.begin(), known_.end(), same); known != known_.end()) return known->fit;
   constexpr std::size_t most = 64;

@@ -187,8 +187,7 @@ noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covari
 const noise::WhitenerSlopes& ModelState::factorised_at(const noise::Covariance& start) const {
   constexpr std::size_t most = 4;
   const auto there = std::find_if(starts_.begin(), starts_.end(), [&](const noise::WhitenerSlopes& known) {
-    const noise::Covariance& at = known.whitener().covariance();
-    return known.is_of(field_) && at.family == start.family && at.theta == start.theta;
+    return known.is_of(field_) && known.whitener().covariance() == start;
   });
   if (there != starts_.end()) return *there;
   if (starts_.size() == most) starts_.pop_front();

@@ -31,7 +31,8 @@ bool swing_refuted(uint64_t seed, double lambda) {
   const Entry& entry = state.entry_of(swing);
   state.terms.push_back({entry.candidate, theta, state.columns_of(swing, theta)});
   state.refit();
-  return most_refuted(state).has_value();
+  KeptFolds folds;
+  return most_refuted(state, folds).has_value();
 }
 
 TEST(Refutation, BearsOutASwingThatIsThere) {
@@ -67,8 +68,39 @@ TEST(Refutation, SparesASmallOffsetThatNeighboursShow) {
     const Entry& entry = state.entry_of(offset);
     state.terms.push_back({entry.candidate, Eigen::VectorXd(0), state.columns_of(offset, Eigen::VectorXd(0)), 50});
     state.refit();
-    EXPECT_FALSE(most_refuted(state).has_value()) << seed;
+    KeptFolds folds;
+    EXPECT_FALSE(most_refuted(state, folds).has_value()) << seed;
   }
+}
+
+// What is kept of the last folds never shows in an error: with another covariance, other parts or other rows they are
+// as if made anew.
+TEST(Refutation, KeptFoldsAreThoseMadeAnew) {
+  const auto world = world_of(varied(5, 3000));
+  const auto causes = causes_of(world);
+  const Problem problem = problem_of(world, Eigen::VectorXd::Zero(world.rssi.size()), causes);
+  ModelState state(problem, {});
+  KeptFolds kept;
+  const auto blocks = [&] { return blocks_of(state.field().sites(), state.fit.covariance); };
+  const auto expect_same = [&](const std::vector<int>& parts, const char* when) {
+    const Sample rows{state.y(), state.base()}, readings{problem.measured, problem.base, &problem.bounds};
+    const Folds anew(state.field().sites(), parts, state.rows().row_of(), state.fit.covariance, state.options().seed);
+    const Eigen::VectorXd errors = kept.of(state, parts).squared_errors(rows, readings);
+    EXPECT_EQ((errors - anew.squared_errors(rows, readings)).cwiseAbs().maxCoeff(), 0) << when;
+    return errors;
+  };
+  const std::vector<int> first = blocks();
+  const Eigen::VectorXd before = expect_same(first, "first");
+  expect_same(first, "again");
+  state.fit.covariance.theta[1] += 0.5;
+  EXPECT_NE(expect_same(first, "another covariance"), before);
+  std::vector<int> halves(first.size());
+  for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = i < halves.size() / 2 ? 0 : 1;
+  expect_same(halves, "other parts");
+  const Candidate& step =
+      *std::find_if(causes.begin(), causes.end(), [](const Candidate& c) { return c.id == "step"; });
+  ASSERT_GT(state.end_rows_at(step, step.design.grid[step.design.grid.size() / 2]), 0);
+  expect_same(blocks(), "rows split");
 }
 
 }  // namespace
