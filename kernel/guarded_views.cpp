@@ -28,6 +28,13 @@ GuardedViews::Copy GuardedViews::copy_of(const double* from, double* to, std::si
   return copy;
 }
 
+std::size_t GuardedViews::cells_of(const std::vector<muster_in>& in, const std::vector<muster_out>& out) {
+  std::size_t result = 0;
+  for (const muster_in& view : in) result += std::size_t{view.rows} * view.cols;
+  for (const muster_out& view : out) result += std::size_t{view.rows} * view.cols;
+  return result;
+}
+
 void GuardedViews::open(std::vector<muster_in>& in, std::vector<muster_out>& out) {
   in_ = &in;
   out_ = &out;

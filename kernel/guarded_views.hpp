@@ -12,6 +12,8 @@ namespace muster {
 
 class GuardedViews {
  public:
+  // How many cells it would copy.
+  static std::size_t cells_of(const std::vector<muster_in>& in, const std::vector<muster_out>& out);
   // From now on the views are of copies.
   void open(std::vector<muster_in>& in, std::vector<muster_out>& out);
 

@@ -307,11 +307,14 @@ constexpr bool is_power_of_two(uint64_t number) { return (number & (number - 1))
 
 }  // namespace
 
-// Some steps take place between guards, all of the first and ever fewer later. Where it steps in a process of its own,
-// it can write into nothing of others.
+// Some steps take place between guards, all of the first and ever fewer later; of those whose tables are large, which
+// are copied, fewer from the start. Where it steps in a process of its own, it can write into nothing of others.
 bool Instance::is_looked_at() const {
   constexpr uint64_t all = 16, one_of = 4096;
-  return !there_ && (steps_ <= all || is_power_of_two(steps_) || steps_ % one_of == 0);
+  constexpr std::size_t large = 1 << 16;  // cells
+  if (there_) return false;
+  if (is_power_of_two(steps_)) return true;
+  return (steps_ <= all || steps_ % one_of == 0) && GuardedViews::cells_of(in_, out_) < large;
 }
 
 std::string Instance::words_of(const GuardedViews::Fault& fault) const {
