@@ -9,11 +9,32 @@
 
 namespace muster::cli {
 
+namespace {
+
+// Of "step=0.002,integrator=rk3" where its comma is; npos of no such text.
+std::size_t comma_before_attribute(const std::string& part) {
+  for (std::size_t comma = part.find(','); comma != part.npos; comma = part.find(',', comma + 1)) {
+    const std::size_t end = part.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_", comma + 1);
+    if (end != part.npos && end > comma + 1 && part[end] == '=') return comma;
+  }
+  return part.npos;
+}
+
+}  // namespace
+
 Exchange exchange_of(const std::string& instance, const std::string& plugin) {
   Exchange result{instance, "", {}};
   std::istringstream parts(plugin);
   std::getline(parts, result.plugin, ':');
-  for (std::string part; std::getline(parts, part, ':');) result.attributes.push_back(part);
+  for (std::string part; std::getline(parts, part, ':');) {
+    if (const std::size_t comma = comma_before_attribute(part); comma != part.npos) {
+      std::string meant = plugin;
+      meant[plugin.find(part) + comma] = ':';
+      throw Error(Exit::invalid_input,
+                  quote(part) + ": a comma stands between attributes; expected ':' there: " + instance + '=' + meant);
+    }
+    result.attributes.push_back(part);
+  }
   return result;
 }
 

@@ -138,6 +138,14 @@ std::string unjoined(const std::vector<Edge>& edges, const Outline& outline) {
   return found;
 }
 
+// True if the parents of both joints are nobody's children: links that hang on one, written the other way round.
+bool are_turned(const std::vector<Edge>& edges, const Edge& one, const Edge& other) {
+  const auto hangs = [&](const std::string& link) {
+    return std::any_of(edges.begin(), edges.end(), [&](const Edge& each) { return each.child == link; });
+  };
+  return one.parent != other.parent && !hangs(one.parent) && !hangs(other.parent);
+}
+
 // Checks that links have one parent, and that all exist.
 std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge>& edges, const Outline& outline) {
   std::map<std::string, Edge> parent_of;
@@ -154,7 +162,11 @@ std::map<std::string, Edge> parents(const Source& source, const std::vector<Edge
       source.fail(edge.line, "link '" + edge.child + "' is the <child> of two joints, '" + other->second.joint +
                                  "' (line " + std::to_string(other->second.line) + ") and '" + edge.joint +
                                  "'; expected one" +
-                                 (left.empty() ? "" : ": link '" + left + "' is in no joint; is it meant here?"));
+                                 (are_turned(edges, edge, other->second)
+                                      ? ": are <parent> and <child> exchanged? expected <parent link=\"" + edge.child +
+                                            "\"/> and <child link=\"" + edge.parent + "\"/>"
+                                  : left.empty() ? ""
+                                                 : ": link '" + left + "' is in no joint; is it meant here?"));
     }
   }
   return parent_of;

@@ -60,6 +60,9 @@ std::string of_another_kind(const TextTable& table, const std::vector<std::strin
     return "these places have no times, which follow from the speed; expected " + all +
            " without t (poses over time carry a robot by physics.replay)";
   }
+  if (is_of_places && has("yaw") && !takes("yaw"))
+    return "these places have no headings, which follow from the way; expected x, y without yaw (in a mission, <go_to "
+           "at=\"x y\" heading=\"1.57\"/> turns the robot there)";
   if (is_of_places && has("z") && !takes("z") && known.size() == 2)
     return "these places are on the ground; expected x, y without z, or <control.path3d/>, by which a robot flies "
            "along "

@@ -192,7 +192,12 @@ std::string Linker::which_of_two(const Claimed::By& one, const Claimed::By& othe
              " drives the robot by itself";
     }
   }
-  return "expected one of the two" + one_of_a_kind(one, other);
+  const std::string kind = one_of_a_kind(one, other);
+  return "expected one of the two" +
+         (kind.empty() && one.instance->phase() == MUSTER_CONTROL
+              ? ", or one after the other: <swap at=\"2\" instance=" + quote(one.instance->name()) +
+                    " plugin=" + quote(other.instance->declared().plugin) + " .../> and no other instance for it"
+              : kind);
 }
 
 void Linker::check_writers(const std::string& logical, const Claimed& c) const {

@@ -222,9 +222,12 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
   if (found != all.end()) return *found;
   for (const auto& instance : instances_) {
     if (const std::string fault = fixed_attribute(*instance, path); !fault.empty())
-      throw Error(Exit::invalid_input, fault + ", or beside this run one with another (muster compare WORLD " +
-                                           instance->name() + "=" + instance->declared().plugin + ":" +
-                                           path.substr(path.rfind('/') + 1) + "=VALUE)");
+      throw Error(Exit::invalid_input,
+                  fault + ", or beside this run one with another (muster compare WORLD " + instance->name() + "=" +
+                      instance->declared().plugin + ":" + path.substr(path.rfind('/') + 1) +
+                      "=VALUE; in a sweep <vary instance=" + quote(instance->name()) + " plugins=" +
+                      quote(instance->declared().plugin + ":" + path.substr(path.rfind('/') + 1) + "=VALUE ...") +
+                      "/>)");
   }
   for (const std::string& fault :
        {fixed_attribute_of_row(world_, standard_, path), state_fault(*this, path), fault_of_row(*this, path)}) {

@@ -200,6 +200,16 @@ std::string under_another_name(const std::string& id, const Library::SearchPath&
   return "";
 }
 
+// `; build/plugins has it: expected --plugins build/plugins`, where a build has put it into a folder of its own.
+std::string in_a_folder_below(const std::string& id, const Library::SearchPath& search_path) {
+  for (const std::filesystem::path& folder : search_path) {
+    std::error_code unknown;
+    if (const auto below = folder / "plugins"; std::filesystem::exists(below / file_name(id), unknown))
+      return fmt::format("; {0} has it: expected {0} in the place of {1}", below.string(), folder.string());
+  }
+  return "";
+}
+
 std::string not_found(const std::string& id, const Library::SearchPath& search_path) {
   std::vector<std::string> folders, ids;
   for (const std::filesystem::path& folder : search_path) {
@@ -213,7 +223,7 @@ std::string not_found(const std::string& id, const Library::SearchPath& search_p
     const std::string own = id.substr(kind.size());
     return nearest(own, {each.substr(kind.size())}).empty() && synonym(own, {each}).empty();
   });
-  const std::string other = under_another_name(id, search_path);
+  const std::string other = under_another_name(id, search_path) + in_a_folder_below(id, search_path);
   return fmt::format(
       "{} not found; looked in {}{}", file_name(id),
       folders.empty() ? "no folder: the plugin path is empty" : fmt::format("{}", fmt::join(folders, ", ")),

@@ -117,7 +117,8 @@ void check(const muster_plugin& plugin) {
   for (std::uint32_t i = 0; i < plugin.param_count; ++i) {
     check_param(plugin, plugin.params[i]);
     if (!names.insert(plugin.params[i].name).second)
-      refuse("registers \"{}\" with the parameter \"{}\" twice", plugin.id, plugin.params[i].name);
+      refuse("registers \"{}\" with the parameter \"{}\" twice; expected another name for the one of \"{}\"", plugin.id,
+             plugin.params[i].name, plugin.params[i].help ? plugin.params[i].help : "");
   }
   check_declarations(plugin);
 }

@@ -17,6 +17,7 @@ constexpr double unbounded = 1e6;            // of a range: none
 constexpr double gravity = 9.81;             // m/s2
 constexpr double strongest = 60;             // dBm, a kilowatt; radios of robots send some 20 dBm
 constexpr double thickest = 2, longest = 3;  // m, of a wall and from a robot to its antenna
+constexpr double usual_antenna = 1;          // m, from a robot to it
 constexpr double highest = 200;              // m, of a wall or a door
 constexpr double narrowest = 1000;           // Hz, of a jammer's or a receiver's band
 constexpr double lowest = 1e6;               // Hz, of a carrier
@@ -35,9 +36,11 @@ std::string about(double value, int digits = 4) {
           std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr};
 }
 
-std::string in_centimetres(double value) {
-  return print_real(value) + " m; is this centimetres? " + print_real(value) + " cm are " + about(value * centimetre) +
-         " m";
+// `highest`: of what is told in metres; what would be higher in centimetres is in millimetres.
+std::string in_smaller_units(double value, double highest) {
+  const bool is_cm = std::abs(value) * centimetre <= highest;
+  return print_real(value) + " m; is this " + (is_cm ? "centimetres? " : "millimetres? ") + print_real(value) +
+         (is_cm ? " cm are " : " mm are ") + about(value * (is_cm ? centimetre : centimetre / 10)) + " m";
 }
 
 // Of a frequency that may be in GHz, MHz or kHz: `power` is that of ten.
@@ -81,9 +84,9 @@ std::string unit_doubt(std::string_view name, std::string_view unit, double valu
     if (name == "bandwidth" && value < narrowest) return in_hertz(value, value < 1 ? 9 : 6);
   }
   if (name == "duty" && value == 0) return "0: it is never on";
-  if (unit == "m" && name == "height" && value > highest) return in_centimetres(value);
-  if (unit == "m" && ((name == "thickness" && value > thickest) || (name == "antenna" && std::abs(value) > longest)))
-    return in_centimetres(value);
+  if (unit == "m" && name == "height" && value > highest) return in_smaller_units(value, highest);
+  if (unit == "m" && name == "thickness" && value > thickest) return in_smaller_units(value, thickest);
+  if (unit == "m" && name == "antenna" && std::abs(value) > longest) return in_smaller_units(value, usual_antenna);
   return "";
 }
 

@@ -166,6 +166,11 @@ std::string why_not(std::string_view text, std::string_view kind) {
 
 }  // namespace
 
+bool is_infinite(std::string_view text) {
+  const Parsed<double> parsed = parse<double>(text);
+  return parsed.error == std::errc{} && parsed.rest.empty() && std::isinf(parsed.value);
+}
+
 std::optional<double> parse_real(std::string_view text) {
   const Parsed<double> parsed = parse<double>(text);
   if (parsed.error != std::errc{} || !parsed.rest.empty() || !std::isfinite(parsed.value)) return std::nullopt;

@@ -29,6 +29,7 @@ std::string print_real(double value);
 // For an error: the reason for refusing the text, as in `"1,5" is not a number; a decimal point is written '.'`; empty
 // if it is valid.
 std::string why_not_real(std::string_view text);
+bool is_infinite(std::string_view text);  // "inf", "-Infinity"
 std::string why_not_integer(std::string_view text);
 std::string why_not_reals(std::string_view text, std::size_t n);
 

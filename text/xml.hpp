@@ -31,8 +31,8 @@ struct XmlElement {
 // Called with the root element's name before the rest of the file is read; throws where it is another than expected.
 using CheckRoot = void (*)(const std::string& name, const Place& place);
 
-// What to write in the place of a text that stands in an element: called with the names of the elements that are open
-// there, the root first; "" for what is said of any file.
+// What to write in the place of a text that stands in an element: called with the start tags of the elements that are
+// open there, without their brackets, the root first; "" for what is said of any file.
 using InPlaceOfText = std::function<std::string(const std::vector<std::string_view>& open, std::string_view text)>;
 
 // As the value of an attribute or the text of an element.

@@ -87,11 +87,11 @@ class Scan {
     if (text_.substr(0, at_).find('<') == text_.npos)
       fail(at_, "the file begins with " + quote(words) + "; expected XML, which begins with <");
     const std::string what = "the text " + quote(words) + " stands between elements; ";
-    std::vector<std::string_view> names;
-    for (const Name& each : open_) names.push_back(each.name);
+    std::vector<std::string_view> tags;
+    for (const Name& each : open_) tags.push_back(text_.substr(each.at + 1, text_.find('>', each.at) - each.at - 1));
     std::string instead;
     try {
-      if (in_place_of_text_) instead = in_place_of_text_(names, words);
+      if (in_place_of_text_) instead = in_place_of_text_(tags, words);
     } catch (const FaultOfElement& fault) {
       throw invalid(file_.place(open_.at(fault.depth).at), fault.what);
     }

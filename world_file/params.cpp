@@ -18,9 +18,12 @@ namespace {
                          const std::string& hint = "") {
   const std::string help = declared.help ? declared.help : "";
   const bool has_order = count > 1 && help.find(": ") != help.npos;  // "place: x y z"
+  const auto has = [&](double limit) { return help.find(print_real(limit)) != help.npos; };
+  const bool tells_of_limits =
+      is_infinite(given.value) && (has(declared.min) || has(declared.max));  // "at -40 Rayleigh"
   throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + what + "; expected " +
                                        expectation(declared, count) + (count > 1 ? ", with spaces between them" : "") +
-                                       (has_order ? " (" + help + ")" : "") + hint);
+                                       (has_order || tells_of_limits ? " (" + help + ")" : "") + hint);
 }
 
 void check_bounds(const muster_param& declared, int count, const XmlAttribute& given, double value, const Warn& warn) {
@@ -86,6 +89,12 @@ Error lacking(const XmlElement& element, const std::string& attribute, const std
 
 void refuse_inside(const XmlElement& element) {
   const XmlElement& inside = element.children[0];
+  const XmlAttribute *name = inside.attribute("name"), *value = inside.attribute("value");
+  if ((inside.name == "param" || inside.name == "parameter" || inside.name == "arg") && name && value)
+    throw invalid(inside.place, "<" + inside.name + "> stands inside <" + element.name + "> of line " +
+                                    std::to_string(element.place.line) +
+                                    ", whose parameters are its attributes; expected <" + element.name + " ... " +
+                                    name->value + "=\"" + value->value + "\"/>");
   throw invalid(inside.place, "<" + inside.name + "> stands inside <" + element.name + "> of line " +
                                   std::to_string(element.place.line) +
                                   ", which takes attributes only; "

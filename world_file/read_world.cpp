@@ -130,15 +130,23 @@ std::string foreign_element(const std::string& name, std::string_view text = "")
 }
 
 // The plugin that an element of another simulator is here, such as <physics type="ode"> and <sensor type="imu">.
-std::string as_plugin(const XmlElement& element) {
+std::string as_plugin(const std::string& name, std::string_view type) {
   static const std::map<std::string, std::string> kinds = {{"physics", "physics"},
                                                            {"sensor", "sensors"},
                                                            {"radio", "radio"},
                                                            {"network", "network"},
                                                            {"controller", "control"}};
-  const auto kind = kinds.find(element.name);
-  const XmlAttribute* type = element.attribute("type");
-  return type && kind != kinds.end() ? kind->second + '.' + type->value : "";
+  const auto kind = kinds.find(name);
+  return !type.empty() && kind != kinds.end() ? kind->second + '.' + std::string(type) : "";
+}
+
+// The value of `type` in a start tag.
+std::string_view type_in(std::string_view tag) {
+  constexpr std::string_view key = " type=\"";
+  const auto from = tag.find(key);
+  if (from == tag.npos) return "";
+  tag.remove_prefix(from + key.size());
+  return tag.substr(0, tag.find('"'));
 }
 
 bool is_element(const Standard& standard, std::string_view name) {
@@ -170,15 +178,18 @@ std::string as_attributes(const Element& element, std::string_view text) {
 // at its place: throws FaultOfElement.
 std::string in_place_of_text(const Standard& standard, const std::vector<std::string_view>& open,
                              std::string_view text) {
+  const auto name_at = [&](std::size_t depth) { return open[depth].substr(0, open[depth].find_first_of(" \t\r\n/")); };
   for (const Element& known : standard.elements) {
-    const std::string given = open.size() == 2 && open[1] == known.name ? as_attributes(known, text) : "";
+    const std::string given = open.size() == 2 && name_at(1) == known.name ? as_attributes(known, text) : "";
     if (!given.empty()) return "expected it as an attribute: <" + std::string(known.name) + ' ' + given + "/>";
   }
   if (open.size() < 3) return "";
-  const std::string_view own = open.back(), around = open[open.size() - 2];
-  if (!is_element(standard, open[1]))
-    throw FaultOfElement{
-        1, "<" + std::string(open[1]) + "> is no element of a world" + foreign_element(std::string(open[1]), text)};
+  const std::string_view own = name_at(open.size() - 1), around = name_at(open.size() - 2);
+  if (const std::string outer(name_at(1)); !is_element(standard, outer)) {
+    const std::string plugin = as_plugin(outer, type_in(open[1]));
+    throw FaultOfElement{1, "<" + outer + "> is no element of a world" +
+                                (plugin.empty() ? foreign_element(outer, text) : "; expected <" + plugin + "/>")};
+  }
   const auto numbers = parse_reals(text, 6);
   if (own != "pose" || !numbers) return "";
   const auto list = [&](std::size_t from, std::size_t to) {
@@ -209,7 +220,9 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
       if (element.name == known.name) return;  // read_rows() has read it
       valid.push_back(known.name);
     }
-    const std::string plugin = as_plugin(element), foreign = foreign_element(element.name);
+    const XmlAttribute* type = element.attribute("type");
+    const std::string plugin = as_plugin(element.name, type ? type->value : ""),
+                      foreign = foreign_element(element.name);
     throw invalid(element.place,
                   "<" + element.name + "> is no element of a world; expected a plugin (with a dot in its name" +
                       (plugin.empty() ? "" : ": <" + plugin + "/>") + ") or " + expected_one_of(valid).substr(9) +

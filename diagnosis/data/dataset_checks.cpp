@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -102,6 +104,27 @@ void check_rssi(const Dataset& data) {
     if (v > thresholds::strongest_level)
       throw refuse("is over +30 dBm; expected a level in dBm, which is mostly negative" + mark(false));
     if (v < thresholds::weakest_level) throw refuse("is below thermal noise; expected a level in dBm" + mark(true));
+  }
+}
+
+// Few levels far above all others: a lost sign, or a digit too few.
+void note_lone_levels(Dataset& data) {
+  std::vector<double> levels;
+  std::copy_if(data.rssi.begin(), data.rssi.end(), std::back_inserter(levels), [](double v) { return !std::isnan(v); });
+  std::sort(levels.begin(), levels.end(), std::greater<>());
+  const auto most = static_cast<std::size_t>(thresholds::lone_share * static_cast<double>(levels.size()));
+  for (std::size_t few = 1; few <= most && few < levels.size(); ++few) {
+    if (levels[few - 1] - levels[few] < thresholds::lone_apart) continue;
+    const auto row = std::find_if(data.rssi.begin(), data.rssi.end(), [&](double v) { return v >= levels[few - 1]; });
+    const bool is_loss = data.reading == "path_loss";
+    const std::string gap = print_real(std::round(levels[few - 1] - levels[few]));
+    data.notes.push_back(at(data, static_cast<std::size_t>(row - data.rssi.begin()), data.reading).text() + ": " +
+                         (is_loss ? print_real(-*row) + " dB" : print_real(*row) + " dBm") +
+                         (few > 1 ? ", as " + std::to_string(few - 1) + " more," : "") + " lies " + gap +
+                         (is_loss ? " dB below all other losses" : " dB above all other levels") +
+                         (*row > 0 ? "; is a minus missing?" : "; is a digit missing?") +
+                         " Where it is no reading, leave the cell empty");
+    return;
   }
 }
 
@@ -227,6 +250,7 @@ void check_readings(Dataset& data) {
   check_scale(data);
   take_marks(data);
   check_rssi(data);
+  note_lone_levels(data);
   check_ends(data);
   find_wild_stamps(data);
   check_times(data);

@@ -189,7 +189,7 @@ class Reader {
     if (const auto used = dotted_.find(name); used != dotted_.end())
       throw invalid(place_, "table " + quote(name) + " stands below line " + std::to_string(used->second) +
                                 ", which uses it; expected it above");
-    map_.tables[name] = {folder_ / words[0], words[1], words[2]};
+    map_.tables[name] = {folder_ / words[0], words[1], words[2], place_};
   }
 
   void read_none(const std::string& column, const std::string& right) {

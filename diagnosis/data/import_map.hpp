@@ -68,6 +68,7 @@ struct ColumnRule {
 struct SideTable {
   std::filesystem::path file;
   std::string key, value;  // a column, and its required value
+  Place place;             // of its line in the map
 };
 
 struct ImportMap {

@@ -61,13 +61,20 @@ StampCell ImportSource::stamp(const std::string& words, const SourceRow& at, con
   return cell;
 }
 
+// A column of the files whose cell there is one of these; "" if there is none.
+std::string ImportSource::column_among(const SourceRow& at, const std::vector<std::string>& these) const {
+  for (std::size_t c = 0; c < file(at).columns().size(); ++c)
+    if (std::find(these.begin(), these.end(), file(at).text(at.row, c)) != these.end()) return file(at).columns()[c];
+  return "";
+}
+
 // Row of the second table. The key is a text with {i}, or a column of the files in braces: {beacon}.
 std::size_t ImportSource::side_row(const std::string& name, const SourceRow& at, const std::string& value,
                                    const Place& rule) {
   const SideTable& side = map_.tables.at(name);
   std::string key = filled(side.value, at, value);
-  if (key.size() > 2 && key.front() == '{' && key.back() == '}')
-    key = file(at).text(at.row, column_of(file(at), key.substr(1, key.size() - 2), rule));
+  const bool is_of_column = key.size() > 2 && key.front() == '{' && key.back() == '}';
+  if (is_of_column) key = file(at).text(at.row, column_of(file(at), key.substr(1, key.size() - 2), rule));
   const ForeignTable& table = sides_.at(name);
   auto [entry, is_new] = side_rows_.try_emplace({name, key}, table.rows());
   if (is_new) {
@@ -80,6 +87,11 @@ std::size_t ImportSource::side_row(const std::string& name, const SourceRow& at,
     std::vector<std::string> keys;
     const std::size_t column = column_of(table, side.key, rule);
     for (std::size_t r = 0; r < table.rows(); ++r) keys.emplace_back(table.text(r, column));
+    if (const std::string fitting = column_among(at, keys); is_of_column && !fitting.empty())
+      throw invalid(side.place, side.key + ' ' + side.value + " is " + quote(key) + " in line " +
+                                    std::to_string(place(at).line) + " of " + place(at).file + ", and " + table.file() +
+                                    " has no such " + quote(side.key) + "; expected a column that has, such as {" +
+                                    fitting + '}');
     throw invalid(rule, table.file() + " has no row whose " + quote(side.key) + " is " + quote(key) + ", as in line " +
                             std::to_string(place(at).line) + " of " + place(at).file + "; " + suggest(key, keys));
   }

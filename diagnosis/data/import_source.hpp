@@ -38,6 +38,7 @@ class ImportSource {
 
  private:
   std::optional<std::string> part_in_braces(const std::string& text, const SourceRow& at) const;
+  std::string column_among(const SourceRow& at, const std::vector<std::string>& these) const;
   std::size_t side_row(const std::string& name, const SourceRow& at, const std::string& value, const Place& rule);
   std::size_t column_of(const ForeignTable& table, const std::string& name, const Place& rule);
 

@@ -13,6 +13,10 @@ namespace muster::diagnosis::thresholds {
 // dB; between a mark for nothing and every other level, as readings lie closer to one another; chosen;
 // DatasetFaults.ALevelAmongOthersIsNoMark
 inline constexpr double mark_apart = 10;
+// dB; how far few levels lie above all others to be told of; chosen; DatasetFaults.FewLevelsFarAboveAllOthersAreTold
+inline constexpr double lone_apart = 25;
+// of the heard readings; how many are few there; chosen; DatasetFaults.FewLevelsFarAboveAllOthersAreTold
+inline constexpr double lone_share = 0.01;
 // dBm; above which no level is read, a watt at the receiver; chosen; DatasetFaults.LevelsThatNoReceiverGives
 inline constexpr double strongest_level = 30;
 // dBm; below which no level is read, thermal noise in 1 Hz; derived; DatasetFaults.LevelsThatNoReceiverGives

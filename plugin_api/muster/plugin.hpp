@@ -34,20 +34,20 @@ inline bool is_null(double value) { return value != value; }
 // Claimed tables: the row type travels with the index, so step() cannot read one as another.
 template <class Row>
 struct In {
-  int index;
+  int index = -1;  // until a constructor sets it
 };
 template <class Row>
 struct Out {
-  int index;
+  int index = -1;  // until a constructor sets it
 };
 template <class Row>
 struct Stage {
-  int index;
+  int index = -1;  // until a constructor sets it
 };
 
 // A declared number: its place among the declarations. `k[n]` is its value in this step.
 struct Value {
-  int index;
+  int index = -1;  // until a constructor sets it
 };
 
 // Thrown where the user's input is wrong rather than the plugin: a parameter, a file.
@@ -157,6 +157,19 @@ class Setup {
   mutable std::vector<bool> used_;  // of params_
 };
 
+namespace detail {
+
+[[noreturn]] inline void refuse_unset(const char* kind, const char* call) {
+  throw std::runtime_error(std::string("step() uses ") + kind + " that the constructor never set; expected MEMBER(" +
+                           call + ") among its initialisers");
+}
+inline int set_index(int index, const char* kind, const char* call) {
+  if (index < 0) refuse_unset(kind, call);
+  return index;
+}
+
+}  // namespace detail
+
 // Calls available to step().
 class Step {
  public:
@@ -165,15 +178,18 @@ class Step {
 
   template <class Row>
   Rows<const Row> operator[](In<Row> t) const {
-    return {in_[t.index].data, in_[t.index].rows, t.index};
+    const int index = detail::set_index(t.index, "an In", "s.read<Row>(\"SET/ROW/QUANTITY\")");
+    return {in_[index].data, in_[index].rows, index};
   }
   template <class Row>
   Rows<Row> operator[](Out<Row> t) const {
-    return {out_[t.index].data, out_[t.index].rows, t.index};
+    const int index = detail::set_index(t.index, "an Out", "s.write<Row>(\"SET/ROW/QUANTITY\")");
+    return {out_[index].data, out_[index].rows, index};
   }
   template <class Row>
   Rows<Row> operator[](Stage<Row> t) const {
-    return {out_[t.index].data, out_[t.index].rows, t.index};
+    const int index = detail::set_index(t.index, "a Stage", "s.modify<Row>(\"SET/ROW/QUANTITY\")");
+    return {out_[index].data, out_[index].rows, index};
   }
   // Rows that an Out claim last published, or that precede a Stage.
   template <class Row>
@@ -184,7 +200,7 @@ class Step {
   Rows<const Row> before(Stage<Row> t) const {
     return {in_[t.index].data, in_[t.index].rows, t.index};
   }
-  double operator[](Value v) const { return tick_->params[v.index]; }
+  double operator[](Value v) const { return tick_->params[detail::set_index(v.index, "a Value", "s.value(\"NAME\")")]; }
 
   double time() const { return tick_->time; }
   double dt() const { return tick_->dt; }
@@ -283,7 +299,14 @@ bool guarded(const muster_host* host, Body&& body) noexcept {
 }
 
 template <class Plugin, class = void>
+constexpr bool calls_them_parameters = false;
+template <class Plugin>
+constexpr bool calls_them_parameters<Plugin, std::void_t<decltype(Plugin::parameters)>> = true;
+
+template <class Plugin, class = void>
 struct Params {
+  static_assert(!calls_them_parameters<Plugin>,
+                "a plugin's declarations are called params: static constexpr muster::Param params[] = {...};");
   static constexpr const Param* data = nullptr;
   static constexpr uint32_t count = 0;
 };

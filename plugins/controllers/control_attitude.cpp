@@ -1,12 +1,17 @@
 // Attitude and thrust from a table, such as a pilot's record.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <muster/plugin.hpp>
 
+#include "description/world_robots.hpp"
 #include "plugins/table_times.hpp"
+#include "robot_model.hpp"
 
 namespace {
 
 using namespace muster;
+using description::WorldRobots;
 
 struct ControlAttitude {
   static constexpr auto id = "control.attitude/1";
@@ -31,13 +36,20 @@ struct ControlAttitude {
       : robot(s.value("robot")),
         times(s, "file"),
         commands(s.file<Row>("file")),
-        command(s.write<AttitudeThrust>("robot/{robot}/attitude_thrust")) {}
+        command(s.write<AttitudeThrust>("robot/{robot}/attitude_thrust")) {
+    const WorldRobots robots(s, description::Meshes::skip);
+    const double model = s.param("robot") + 1;
+    if (!robots.quadrotor_of(model))
+      throw BadInput(model_in_words(s) + " has no rotors (<muster>, <quadrotor>) and does not fly; expected " +
+                     "<control.recorded/>, which drives by a table of v and w" + or_a_model(s, "<quadrotor", "flies"));
+    weight = description::whole_mass(*robots.of(model)).mass * gravity;
+  }
 
   void step(const Step& k) const {
     const double tick = k.time() / static_cast<double>(k.tick());
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, that for most of it
     *k[command] = {0, 0, 0, 0};
-    double last = -std::numeric_limits<double>::infinity(), second = last;
+    double last = -std::numeric_limits<double>::infinity(), second = last, most = 0;  // s, s, N
     std::size_t number = 0, own = 0, first = 0;
     for (const Row& row : k[commands]) {
       ++number;
@@ -48,9 +60,11 @@ struct ControlAttitude {
       last = row.t;
       if (++own == 1) first = number - 1;
       if (own <= 2) second = row.t;
+      most = std::max(most, row.asked.thrust);
       if (row.t <= now) *k[command] = row.asked;
     }
     if (own == 0) throw BadInput("the file has no commands for it");
+    if (k.tick() == 1 && most > 0 && most < little * weight) warn_of_little(k, most, first);
     if (k.tick() == 1 && last >= 0)  // what was asked before the run holds
       times.warn_of(
           k, {k[commands][first].t, second, last, first},
@@ -58,6 +72,19 @@ struct ControlAttitude {
           "none is ever given");
   }
 
+  // `row` is the robot's first.
+  void warn_of_little(const Step& k, double most, std::size_t row) const {
+    const std::string share =
+        most <= 1 ? "; is it a share of the largest thrust, from 0 to 1? multiply it by that" : "";
+    k.event("warning: " + times.rows().at(row) + "cmd_thrust is at most " + TableTimes::print(most) +
+            " N, and hovering takes " + TableTimes::print(std::round(100 * weight) / 100) + " N, so that robot '" +
+            std::string(k.name("robot", static_cast<std::size_t>(k[robot]))) + "' never flies; expected newtons" +
+            share);
+  }
+
+  static constexpr double gravity = 9.81;  // m/s^2
+  static constexpr double little = 0.9;    // of the weight: a fall that a record may end with is no fault
+  double weight = 0;                       // N
   Value robot;
   TableTimes times;
   In<Row> commands;

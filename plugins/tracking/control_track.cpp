@@ -6,6 +6,7 @@
 
 #include "plugins/heading.hpp"
 #include "plugins/own_radio.hpp"
+#include "plugins/table_rows.hpp"
 #include "plugins/tracking/navigation_function.hpp"
 #include "plugins/tracking/sighting.hpp"
 
@@ -83,6 +84,7 @@ struct ControlTrack {
         turn_speed(s.value("turn_speed")),
         radio(own_radio(s)),
         base(s.param("base")),
+        rows(s, "obstacles"),
         discs(s.file<Disc>("obstacles")),
         odometry(s.read<Odometry>("robot/{robot}/odometry")),
         sighting(s.read<Sighting>("robot/{robot}/sighting")),
@@ -93,10 +95,18 @@ struct ControlTrack {
     expect_another_radio(s, "base", radio, "the robot's own radio");
   }
 
+  // Obstacles are discs: one of a negative radius would let the robot through.
+  void check_discs(const Step& k) const {
+    for (std::size_t i = 0; i < k[discs].size(); ++i)
+      if (!(k[discs][i].radius >= 0))
+        throw BadInput(rows.at(i) + "the radius is negative; expected a number from 0, in m");
+  }
+
   void step(const Step& k) const {
     State now = *k.last(state);
     const Vector2 here{k[odometry]->x, k[odometry]->y};
     const double from_base = std::hypot(here.x - k[base_x], here.y - k[base_y]);
+    if (k.tick() == 1) check_discs(k);
     listen(k, now);
     now.reach = k[aware] != 0 ? reach(k, now, from_base) : null();
     const Sighting& seen = *k[sighting];
@@ -168,6 +178,7 @@ struct ControlTrack {
   Value base_x, base_y, room_x, room_y, room, aware, reception, sensitivity, n, smoothing, lost, standoff, side,
       clearance, sharpness, speed, turn_gain, turn_speed;
   double radio, base;
+  TableRows rows;  // of the obstacles
   In<Disc> discs;
   In<Odometry> odometry;
   In<Sighting> sighting;

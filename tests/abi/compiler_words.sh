@@ -29,3 +29,4 @@ expect 'integer(name, default, min, max, help): default, min and max are numbers
   '-DPARAM=muster::integer("retries", "3", 0, 9, "again")'
 expect 'flag(name, default, help): the default is true or false without quotes' \
   '-DPARAM=muster::flag("loop", "false", "again")'
+expect "a plugin's declarations are called params: static constexpr muster::Param params[] = {...};" -DPARAMS=parameters

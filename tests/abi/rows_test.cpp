@@ -91,5 +91,27 @@ TEST(RowTypes, ARowThatIsNotThereIsNeitherReadNorWritten) {
   for (const Command& row : none) FAIL() << row.v;
 }
 
+// What a constructor forgot to set is told, and no memory beside the views is read.
+TEST(Step, AMemberThatTheConstructorNeverSetIsRefused) {
+  const std::array<double, 1> params{5};
+  const muster_tick tick{sizeof(muster_tick), 0, 1, 0.1, 0.1, params.data()};
+  const Step step(nullptr, &tick, nullptr, nullptr);
+  EXPECT_EQ(step[Value{0}], 5);
+  const auto said = [](const auto& use) {
+    try {
+      use();
+    } catch (const std::runtime_error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(said([&] { step[Value{}]; }),
+            "step() uses a Value that the constructor never set; expected MEMBER(s.value(\"NAME\")) among its "
+            "initialisers");
+  EXPECT_NE(said([&] { step[In<Command>{}]; }).find("an In that"), std::string::npos);
+  EXPECT_NE(said([&] { step[Out<Command>{}]; }).find("an Out that"), std::string::npos);
+  EXPECT_NE(said([&] { step[Stage<Command>{}]; }).find("a Stage that"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace muster

@@ -174,6 +174,10 @@ const Case cases[] = {
      link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "a", "b") + joint("j2", "a", "c") +
          joint("j3", "b", "c"),
      "7: link 'c' is the <child> of two joints, 'j2' (line 6) and 'j3'; expected one"},
+    {"parent_and_child_exchanged",
+     link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "b", "a") + joint("j2", "c", "a"),
+     "6: link 'a' is the <child> of two joints, 'j1' (line 5) and 'j2'; expected one: are <parent> and <child> "
+     "exchanged? expected <parent link=\"a\"/> and <child link=\"c\"/>"},
     {"a_child_that_is_copied",
      link("a", mass) + link("b", mass) + link("c", mass) + joint("j1", "a", "b") + joint("j2", "a", "b"),
      "6: link 'b' is the <child> of two joints, 'j1' (line 5) and 'j2'; expected one: link 'c' is in no joint; is it "

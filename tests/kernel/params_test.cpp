@@ -32,7 +32,7 @@ TEST_F(Params, ValuesAreHeldAgainstTheDeclaration) {
       set("n/robot", 1),
       "\"n/robot\" is the name of a robot, and no parameter: numbers, flags and choices are; expected robot=\"...\" "
       "in the world, at world.xml:4:1, or beside this run one with another (muster compare WORLD "
-      "n=toy.copy_radio:robot=VALUE)");
+      "n=toy.copy_radio:robot=VALUE; in a sweep <vary instance=\"n\" plugins=\"toy.copy_radio:robot=VALUE ...\"/>)");
   EXPECT_EQ(set("robot/a/at", 1),
             "\"robot/a/at\" is 3 numbers, and no parameter: single numbers, flags and choices are; expected "
             "at=\"...\" of <robot>, at world.xml:2:1");

@@ -203,7 +203,9 @@ TEST(Registration, RefusesAParameterTwice) {
   sample.plugin.param_count = 2;
   given = {&sample.plugin};
   answer = MUSTER_OK;
-  EXPECT_EQ(refusal(), "registers \"radio.sample/3\" with the parameter \"n\" twice");
+  EXPECT_EQ(refusal(),
+            "registers \"radio.sample/3\" with the parameter \"n\" twice; expected another name for the one of \"" +
+                std::string(sample.param.help ? sample.param.help : "") + '"');
 }
 
 muster_law sample_law() {

@@ -29,6 +29,8 @@ TEST(Doubts, LengthsLookLikeCentimetres) {
   EXPECT_EQ(unit_doubt("thickness", "m", 12), "12 m; is this centimetres? 12 cm are 0.12 m");
   EXPECT_EQ(unit_doubt("thickness", "m", 0.12), "");
   EXPECT_EQ(unit_doubt("antenna", "m", 30), "30 m; is this centimetres? 30 cm are 0.3 m");
+  EXPECT_EQ(unit_doubt("antenna", "m", 300), "300 m; is this millimetres? 300 mm are 0.3 m");
+  EXPECT_EQ(unit_doubt("thickness", "m", 240), "240 m; is this millimetres? 240 mm are 0.24 m");
   EXPECT_EQ(unit_doubt("range", "m", 30), "");
 }
 

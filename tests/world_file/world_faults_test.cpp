@@ -35,6 +35,9 @@ TEST_F(Faults, Fault5MisspeltNames) {
             "world.xml:2:6: <c> stands inside <a.b> of line 2, which takes attributes only; expected elements side by "
             "side in "
             "<world>, each closed by \"/>\"");
+  EXPECT_EQ(error_with("<a.b><param name='speed' value='0.4'/></a.b>"),
+            "world.xml:2:6: <param> stands inside <a.b> of line 2, whose parameters are its attributes; expected <a.b "
+            "... speed=\"0.4\"/>");
   EXPECT_EQ(error_with("<record tabel='x'/>"),
             "world.xml:2:1: <record> has no attribute \"table\", which it needs; expected a table's name: "
             "set/row/quantity, or set/*/quantity for all rows");

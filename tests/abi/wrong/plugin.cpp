@@ -12,10 +12,14 @@ struct State {
 #define PARAM muster::real("speed", 0, 0, 2, "m/s", "forward speed"), muster::flag("loop", false, "again")
 #endif
 
+#ifndef PARAMS
+#define PARAMS params
+#endif
+
 struct Wrong {
   static constexpr auto id = "test.wrong/1", summary = "is wrong in one place";
   static constexpr auto phase = MUSTER_OBSERVE;
-  static constexpr muster::Param params[] = {PARAM};
+  static constexpr muster::Param PARAMS[] = {PARAM};
   explicit Wrong(muster::Setup& s) : state(s.write<State>("self/state")) {}
   void step(const muster::Step&) const {}
   muster::Out<State> state;

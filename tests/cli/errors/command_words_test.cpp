@@ -125,6 +125,9 @@ TEST(CommandWords, AFolderOfWorldsAndArgumentsExchanged) {
   EXPECT_EQ(said_beside_a_channel({"compare", "lab", "channel:radio.friis"}),
             "muster: error: muster compare: \"channel:radio.friis\" is no world; expected INSTANCE=PLUGIN, "
             "channel=radio.friis\n");
+  EXPECT_EQ(said_beside_a_channel({"compare", "lab", "channel=radio.friis:power=2,gain_tx=3:model=a,b"}),
+            "muster: error: \"power=2,gain_tx=3\": a comma stands between attributes; expected ':' there: "
+            "channel=radio.friis:power=2:gain_tx=3:model=a,b\n");
 }
 
 TEST(CommandWords, ATableWithoutItsColumn) {

@@ -50,8 +50,7 @@ TEST(Fault5, HabitsOfSdfAndRos) {
       "world.xml:1:57: the text \"2 1\" stands between elements; expected elements and comments only, "
       "and values as attributes: <station NAME=\"VALUE\"/>");
   folder.expect_refused(world_of(R"(<physics type="ode"><max_step_size>0.001</max_step_size></physics>)"),
-                        "world.xml:1:36: <physics> is no element of a world; the physics is a plugin, such as "
-                        "<physics.simbody/>");
+                        "world.xml:1:36: <physics> is no element of a world; expected <physics.ode/>");
   folder.expect_refused(
       world_of(R"(<station name="rover" at="0 0 1"/><record table="/rover/traffics"/>)"),
       "world.xml:1:70: record: there is no table \"/rover/traffics\"; did you mean \"radio/rover/traffic\"? expected "

@@ -27,7 +27,7 @@ TEST(FirstHour, FilesOfOtherSimulatorsAreToldAsSuch) {
   expect_refused(
       "<world name=\"w\" until=\"1\"><physics type=\"ode\"><max_step_size>0.001</max_step_size></physics>"
       "</world>",
-      "world.xml:1:27: <physics> is no element of a world; the physics is a plugin, such as <physics.simbody/>");
+      "world.xml:1:27: <physics> is no element of a world; expected <physics.ode/>");
   expect_refused(
       "<world name=\"w\" until=\"1\"><physics type=\"ode\"/></world>",
       "world.xml:1:27: <physics> is no element of a world; expected a plugin (with a dot in its name: "

@@ -129,7 +129,8 @@ TEST(Habits, ACommandLineOfRos) {
   refused({"run", "world.xml", "--set", "steer/robot=rover"},
           "\"steer/robot\" is the name of a robot, and no parameter: numbers, flags and choices are; expected "
           "robot=\"...\" in the world, at world.xml:4:1, or beside this run one with another (muster compare WORLD "
-          "steer=control.steady:robot=VALUE)");
+          "steer=control.steady:robot=VALUE; in a sweep <vary instance=\"steer\" plugins=\"control.steady:robot=VALUE "
+          "...\"/>)");
   const auto swapped =
       folder.muster({"swap", "world.xml", "--at", "0.5", "--instance", "body", "--plugin", "control.steady"});
   EXPECT_EQ(swapped.exit, 2);

@@ -1,4 +1,5 @@
 // Fault class 25: impossible measured data, each reported with its row, word for word.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,6 +43,28 @@ TEST(DatasetFaults, LevelsThatNoReceiverGives) {
       "d.csv:2:15: row 1: an rssi of -999 dBm is below thermal noise; expected a level in dBm; 2 rows have it: is "
       "-999 a mark for nothing received? then leave these cells empty (in a map of muster import: none rssi = "
       "-999)");
+}
+
+// One in a hundred at most, and 25 dB apart.
+TEST(DatasetFaults, FewLevelsFarAboveAllOthersAreTold) {
+  const auto notes = [](int count, const std::string& levels) {
+    const Scratch scratch;
+    std::string rows;
+    for (int i = 0; i < count; ++i)
+      rows +=
+          std::to_string(i) + ",a,b,0,0," + std::to_string(1 + 0.01 * i) + ",0," + std::to_string(-70 + i % 30) + "\n";
+    return read_dataset(scratch.write("d.csv", header + rows + levels)).notes;
+  };
+  const std::string one = "1000,a,b,0,0,3,0,25.3\n", near = "1000,a,b,0,0,3,0,-20\n";
+  ASSERT_EQ(notes(200, one).size(), 1u);
+  EXPECT_THAT(notes(200, one)[0],
+              testing::HasSubstr("d.csv:202:18: 25.3 dBm lies 66 dB above all other levels; is a minus "
+                                 "missing? Where it is no reading, leave the cell empty"));
+  EXPECT_THAT(notes(200, "1000,a,b,0,0,3,0,-5\n").at(0),
+              testing::HasSubstr("-5 dBm lies 36 dB above all other levels; is a digit"));
+  EXPECT_THAT(notes(200, one + "1001,a,b,0,0,3,0,26\n").at(0), testing::HasSubstr("25.3 dBm, as 1 more, lies"));
+  EXPECT_TRUE(notes(200, near).empty());
+  EXPECT_TRUE(notes(50, one).empty());
 }
 
 TEST(DatasetFaults, ALogThatIsJoinedToItselfOrHasOneTime) {

@@ -140,6 +140,13 @@ TEST(Import, WhatDoesNotFitIsNamed) {
     return complaint([&] { import_table({file}, map, scratch / "out.csv"); });
   };
   EXPECT_NE(failing(wide_map).find("has no row whose \"id\" is \"2\""), std::string::npos);
+  const std::string by_place = "table a = anchors.csv id {px}\ntx_x[m] = a.x\n";
+  const std::string anchors = (scratch / "anchors.csv").string(), wide = (scratch / "wide.csv").string();
+  EXPECT_EQ(failing(by_place),
+            "m.map:2: " + anchors + " has no row whose \"id\" is \"1000\", as in line 2 of " + wide + "; expected 1");
+  scratch.write("anchors.csv", "id,x,y\n90,5,0\n");
+  EXPECT_EQ(failing(by_place), "m.map:1: id {px} is \"1000\" in line 2 of " + wide + ", and " + anchors +
+                                   " has no such \"id\"; expected a column that has, such as {heading}");
   EXPECT_NE(failing("rssi[dBm] = rsi_1\n").find("did you mean \"rssi_1\"?"), std::string::npos);
   EXPECT_EQ(failing("rssi[dBm] rssi_1\n"), "m.map:1: \"rssi[dBm] rssi_1\" has no '='; expected COLUMN[UNIT] = RULE");
   EXPECT_EQ(

@@ -265,6 +265,31 @@ TEST(Attitude, AFileWithoutCommandsForTheRobotIsRefused) {
   }
 }
 
+// As from an autopilot that counts thrust from 0 to 1.
+TEST(AttitudeTable, ThrustThatNeverLiftsIsWarnedOf) {
+  const auto warned = [](const std::string& thrust) {
+    const Folder folder;
+    Simulation run = world_of(folder,
+                              "<robot name=\"r\" model=\"hummingbird\" at=\"0 0 2\"/><physics.simbody/>"
+                              "<robots.attitude/><control.attitude robot=\"r\" file=\"s.csv\"/>",
+                              {{"s.csv", "t[s],cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n0," +
+                                             thrust + ",0,0,0\n0.1,0.2,0,0,0\n"}});
+    run.step();
+    for (const Event& event : run.events())
+      if (event.message.find("cmd_thrust") != std::string::npos)
+        return event.message.substr(event.message.rfind("s.csv"));
+    return std::string();
+  };
+  EXPECT_EQ(
+      warned("0.55"),
+      "s.csv:2:1: cmd_thrust is at most 0.55 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
+      "newtons; is it a share of the largest thrust, from 0 to 1? multiply it by that");
+  EXPECT_EQ(warned("5"),
+            "s.csv:2:1: cmd_thrust is at most 5 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
+            "newtons");
+  EXPECT_EQ(warned("7.1"), "");
+}
+
 TEST(Mocap, SeesThePoseAndAddsTheNoiseDeclared) {
   const Folder folder;
   const std::string still =

@@ -52,6 +52,10 @@ TEST(Waypoint, ColumnsThatNobodyReadsAreRefused) {
       error("control.waypoint", "x[m],y[m],z[m]\n3,0,1\n"),
       "path.csv:1:11: column \"z\" means nothing here; these places are on the ground; expected x, y without z, or "
       "<control.path3d/>, by which a robot flies along x[m],y[m],z[m]");
+  EXPECT_EQ(
+      error("control.waypoint", "x[m],y[m],yaw[rad]\n3,0,1\n"),
+      "path.csv:1:11: column \"yaw\" means nothing here; these places have no headings, which follow from the way; "
+      "expected x, y without yaw (in a mission, <go_to at=\"x y\" heading=\"1.57\"/> turns the robot there)");
   EXPECT_EQ(error("control.path3d", "t[s],x[m],y[m],z[m]\n1,3,0,1\n"),
             "path.csv:1:1: column \"t\" means nothing here; these places have no times, which follow from the speed; "
             "expected x, y, z without t (poses over time carry a robot by physics.replay)");

@@ -55,6 +55,24 @@ TEST(TargetTracking, WithoutLossesTheBaseKnowsWhereTheTargetIs) {
   EXPECT_LT(sum / count, 0.06);
 }
 
+TEST(TargetTracking, AnObstacleOfNegativeRadiusIsRefused) {
+  const Folder folder;
+  World world = tracking_world(true, 1);
+  const std::string discs = folder.write("discs.csv", "x[m],y[m],radius[m]\n3,2,0.5\n4,2,-0.5\n").string();
+  for (InstanceDeclaration& each : world.instances)
+    for (XmlAttribute& given : each.attributes)
+      if (given.name == "obstacles") given.value = discs;
+  Simulation run(std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
+  try {
+    run.step();
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(discs + ":3:1: the radius is negative; expected a number from 0, in m"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(TargetTracking, KeepsTheLinkThatTheUnawareLose) {
   Tracked aware(true), unaware(false);
   double silence_aware = 0, silence_unaware = 0;
