@@ -22,6 +22,9 @@ inline constexpr double prior_logit_shared = -1.5;
 inline constexpr double prior_shared_spread = 1.5;
 // 1; least curvature in any direction, which bounds the standard deviation of theta by about two; chosen; none
 inline constexpr double least_curvature = 0.3;
+// 1; a fit is given up whose value stays too high even if it falls by that many times the expected gain; chosen;
+// FixedShare.IsTheBestOfItsNeighboursFittedInFull
+inline constexpr double trusted_multiple = 5;
 // nats; advantage needed to leave the exponential family; chosen; Fit.DistinguishesASmoothFieldFromAnExponentialOne
 inline constexpr double leave_exponential_nats = 2;
 

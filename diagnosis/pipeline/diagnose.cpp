@@ -12,6 +12,7 @@
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/first_cause.hpp"
 #include "diagnosis/pipeline/joint_refit.hpp"
+#include "diagnosis/pipeline/notes_of_given.hpp"
 #include "diagnosis/pipeline/own_world.hpp"
 #include "diagnosis/pipeline/relative_to_given.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
@@ -301,6 +302,7 @@ struct Diagnosed {
     if (found.unseen && out.unseen &&
         out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
       return {};
+    keep_notes_of_given(world, found, folder.path(), out);
     return out;
   }
 };
@@ -366,6 +368,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   if (!blockage) {
     first.causes[0].put_right_first = true;
     Diagnosis corrected = with_it.run(&first);
+    keep_notes_of_given(world, found, folder.path(), corrected);
     if (watch.stop()) return interrupted(std::move(found));
     if (!exchanged.cause) return corrected;
     watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);
@@ -374,6 +377,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     return other && other->unseen && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
   }
   Diagnosis again = with_it.run();
+  keep_notes_of_given(world, found, folder.path(), again);
   if (watch.stop()) return interrupted(std::move(found));
   if (first.causes[0].log_p > thresholds::blockage_in_company && something_changes_in_time(again)) {
     Diagnosis result = Diagnoser(world, data, plugins, tables, watch, first.causes[0].id).run();

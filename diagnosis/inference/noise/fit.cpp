@@ -19,12 +19,16 @@ Eigen::Matrix4d bounded(const Eigen::Matrix4d& information) {
          solver.eigenvectors().transpose();
 }
 
+constexpr double unlimited = std::numeric_limits<double>::max();
+
+// Ends early where the value would stay above `to_beat` even if it fell by several times what is expected.
 Fit fit_from(Covariance at, Objective here, const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
-             const Prior& prior, int steps, const Theta& moves) {
+             const Prior& prior, int steps, const Theta& moves, double to_beat = unlimited) {
   for (int step = 0; step < steps; ++step) {
     const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
     const Theta gradient = moves.cwiseProduct(here.gradient), whole = -curvature.ldlt().solve(gradient);
-    if (-whole.dot(gradient) < 0.02) break;  // expected gain in nats, doubled
+    const double expected = -whole.dot(gradient) / 2;  // nats
+    if (expected < 0.01 || here.value - inference::thresholds::trusted_multiple * expected > to_beat) break;
     Theta move = whole / std::max(1.0, whole.cwiseAbs().maxCoeff());
     bool better = false;
     for (int shorter = 0; shorter < 5 && !better; ++shorter, move *= 0.35) {
@@ -67,7 +71,9 @@ Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::M
     while (true) {
       const Family family = best.covariance.family, next = less ? with_less_fixed(family) : with_more_fixed(family);
       if (next == family || fixed_share(next) == 0) break;
-      const Fit other = fit(field, y, design, prior, {next, best.covariance.theta}, steps);
+      const Covariance at{next, prior.inside(best.covariance.theta)};
+      const Fit other = fit_from(at, objective(field, at, y, design, prior), field, y, design, prior, steps,
+                                 Theta::Ones(), best.value);
       if (!(other.value < best.value)) break;
       best = other;
     }

@@ -175,5 +175,39 @@ TEST(FixedShare, IsFoundInTheDataThatHaveIt) {
   }
 }
 
+// What is given up early would not have won: the same as a climb over shares each of which is fitted to the end.
+TEST(FixedShare, IsTheBestOfItsNeighboursFittedInFull) {
+  const Sites sites = mesh(45, 12);
+  const Field field(sites);
+  const Eigen::MatrixXd design = Eigen::MatrixXd::Ones(sites.size(), 1);
+  const Stream stream(22);
+  int moved = 0;
+  for (uint64_t draw = 0; draw < 24; ++draw) {
+    const Family family = with_fixed(Family::exponential, draw % 4, draw % 2 == 0);
+    const Eigen::MatrixXd root = dense(sites, {family, some}).llt().matrixL();
+    Eigen::VectorXd z(sites.size());
+    for (Index i = 0; i < z.size(); ++i) z[i] = stream.normal(static_cast<uint64_t>(i), draw);
+    const Eigen::VectorXd y = root * z;
+    const Covariance start{with_fixed(Family::exponential, (draw + 1) % 4, draw % 2 == 0),
+                           Prior().inside(default_start(y, design, Family::exponential).theta)};
+    const WhitenerSlopes there(field, start);
+    Fit best = fit(field, y, design, {}, there, 6);
+    for (const bool less : {true, false}) {
+      while (true) {
+        const Family from = best.covariance.family, next = less ? with_less_fixed(from) : with_more_fixed(from);
+        if (next == from || fixed_share(next) == 0) break;
+        const Fit other = fit(field, y, design, {}, {next, best.covariance.theta}, 6);
+        if (!(other.value < best.value)) break;
+        best = other;
+      }
+    }
+    const Fit found = fit_over_shares(field, y, design, {}, there, 6);
+    EXPECT_EQ(found.covariance.family, best.covariance.family) << draw;
+    EXPECT_EQ(found.value, best.value) << draw;
+    moved += found.covariance.family != start.family;
+  }
+  EXPECT_GT(moved, 8);
+}
+
 }  // namespace
 }  // namespace muster::noise

@@ -53,6 +53,13 @@ TEST(ExchangedIdentity, IsNotTriedForARadioThatStandsWhereNoOtherShould) {
   EXPECT_FALSE(instead_of_misplaced(log, log.truth.substr(log.truth.find('/') + 1)));
 }
 
+// The corrected world was a file for the time of the diagnosis: its author has no such file to look into.
+void expect_no_other_files(const std::vector<std::string>& notes, const std::filesystem::path& own) {
+  for (const std::string& note : notes)
+    for (std::size_t at = note.find("/tmp/"); at != note.npos; at = note.find("/tmp/", at + 1))
+      EXPECT_EQ(note.compare(at, own.string().size(), own.string()), 0) << note;
+}
+
 class OwnWorldLoop : public testing::TestWithParam<Fault> {};
 
 // The extended world is simulated as it was found, and silent.
@@ -62,6 +69,7 @@ TEST_P(OwnWorldLoop, IsNamedAndTheExtendedWorldIsSilent) {
   const Diagnosis found = diagnose(log.world, log.table, plugins);
   ASSERT_EQ(names_in_words(named_causes(found)), log.truth);
   EXPECT_STREQ(found.verdict(), "extended");
+  expect_no_other_files(found.notes, log.world.parent_path());
   ASSERT_TRUE(found.causes[0].held_out);
   EXPECT_GT(found.causes[0].held_out->lower95, 0);
   const Loop loop = closed_loop(found, log.world, log.table, out / "extended", plugins).value();
