@@ -65,10 +65,7 @@ TextTable TextTable::read(const std::filesystem::path& path) {
   if (table.file_.text.empty())
     throw invalid({table.file()}, "is empty; expected a header such as t[s],tx,rx,rssi[dBm]");
   if (table.file_.text.starts_with("sep="))
-    throw invalid(table.file_.place(0), "the first line is " +
-                                            quote(table.file_.text.substr(0, table.file_.text.find_first_of("\r\n"))) +
-                                            ", which a spreadsheet writes and hides, and no header; expected the names "
-                                            "of the columns there: delete this line");
+    throw invalid(table.file_.place(0), "\"sep=\" is a spreadsheet's line, and no header: delete this line");
   if (const std::string kind = file_kind(std::string_view(table.file_.text).substr(0, 256)); !kind.empty())
     throw invalid(table.file_.place(0),
                   "begins as " + kind + " does; expected a table: a header of names, and ',' between cells" +

@@ -149,8 +149,7 @@ TEST_F(Table, RefusesRaggedRows) {
             "d.csv:1:1: the first line is \"image: map.pgm\", as of a YAML file, and no header; expected a table: a "
             "header of names, and ',' between cells");
   EXPECT_EQ(error_in("sep=,\na,b\n1,2\n"),
-            "d.csv:1:1: the first line is \"sep=,\", which a spreadsheet writes and hides, and no header; expected the "
-            "names of the columns there: delete this line");
+            "d.csv:1:1: \"sep=\" is a spreadsheet's line, and no header: delete this line");
   EXPECT_EQ(error_in("a,b\n1,2\n\n"), "d.csv:3:1: the line is empty; expected a row");
   EXPECT_EQ(error_in("a,b\r\n\r\n1,2\r\n"), "d.csv:2:1: the line is empty; expected a row");
   EXPECT_EQ(error_in("a,b\n" + std::string(70'000, 'x') + ",1\n"),

@@ -290,6 +290,20 @@ TEST(AttitudeTable, ThrustThatNeverLiftsIsWarnedOf) {
   EXPECT_EQ(warned("7.1"), "");
 }
 
+TEST(AttitudeTable, ARobotOnWheelsIsRefused) {
+  const Folder folder;
+  try {
+    world_of(folder,
+             "<robot name=\"r\" model=\"scarab\" at=\"0 0 0\"/><physics.simbody/>"
+             "<control.attitude robot=\"r\" file=\"s.csv\"/>",
+             {{"s.csv", "t[s],cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n0,1,0,0,0\n"}});
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("has no rotors (<muster>, <quadrotor>) and does not fly; expected "
+                                                 "<control.recorded/>, which drives by a table of v and w"));
+  }
+}
+
 TEST(Mocap, SeesThePoseAndAddsTheNoiseDeclared) {
   const Folder folder;
   const std::string still =
