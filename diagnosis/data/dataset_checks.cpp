@@ -112,9 +112,9 @@ void note_lone_levels(Dataset& data) {
   std::vector<double> levels;
   std::copy_if(data.rssi.begin(), data.rssi.end(), std::back_inserter(levels), [](double v) { return !std::isnan(v); });
   std::sort(levels.begin(), levels.end(), std::greater<>());
-  const auto most = static_cast<std::size_t>(thresholds::lone_share * static_cast<double>(levels.size()));
-  for (std::size_t few = 1; few <= most && few < levels.size(); ++few) {
-    if (levels[few - 1] - levels[few] < thresholds::lone_apart) continue;
+  const auto share = static_cast<std::size_t>(thresholds::lone_share * static_cast<double>(levels.size()));
+  for (std::size_t few = 1; few <= std::min(share, thresholds::most_outliers); ++few) {
+    if (levels[few - 1] - levels[few] < thresholds::outlier_gap) continue;
     const auto row = std::find_if(data.rssi.begin(), data.rssi.end(), [&](double v) { return v >= levels[few - 1]; });
     const bool is_loss = data.reading == "path_loss";
     const std::string gap = print_real(std::round(levels[few - 1] - levels[few]));

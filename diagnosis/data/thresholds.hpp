@@ -13,9 +13,13 @@ namespace muster::diagnosis::thresholds {
 // dB; between a mark for nothing and every other level, as readings lie closer to one another; chosen;
 // DatasetFaults.ALevelAmongOthersIsNoMark
 inline constexpr double mark_apart = 10;
-// dB; how far few levels lie above all others to be told of; chosen; DatasetFaults.FewLevelsFarAboveAllOthersAreTold
-inline constexpr double lone_apart = 25;
-// of the heard readings; how many are few there; chosen; DatasetFaults.FewLevelsFarAboveAllOthersAreTold
+// dB; that part outliers from all others, exceeded in one Rayleigh record of a thousand; derived;
+// ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
+inline constexpr double outlier_gap = 30;
+// readings; that may be outliers together; chosen; ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
+inline constexpr std::size_t most_outliers = 3;
+// of the heard readings; of fewer, one far above the others is near a radio; chosen;
+// DatasetFaults.FewLevelsFarAboveAllOthersAreTold
 inline constexpr double lone_share = 0.01;
 // dBm; above which no level is read, a watt at the receiver; chosen; DatasetFaults.LevelsThatNoReceiverGives
 inline constexpr double strongest_level = 30;

@@ -51,11 +51,6 @@ inline constexpr double pile_alpha = 1e-6;
 inline constexpr std::size_t fewest_codes = 3;
 // readings; of each code, on average, that show a step; chosen; ReceiverChecks.NoStepFromTooFewReadings
 inline constexpr std::size_t readings_of_code = 4;
-// dB; that part outliers from all others, exceeded in one Rayleigh record of a thousand; derived;
-// ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
-inline constexpr double outlier_gap = 30;
-// readings; that may be outliers together; chosen; ReceiverChecks.AnIsolatedReadingIsReportedWithItsRow
-inline constexpr std::size_t most_outliers = 3;
 
 // draws; of the world, none of which may pile up as strongly as readings do (p = 1/40); derived; none
 inline constexpr uint64_t pile_draws = 39;

@@ -21,17 +21,17 @@ struct Many {
   double id, range[3];
 };
 struct Flagged {
-  static constexpr const char* columns = "heading[rad] valid";
+  [[maybe_unused]] static constexpr const char* columns = "heading[rad] valid";
   double heading;
   bool valid;
 };
 struct Counted {
-  static constexpr const char* columns = "heading[rad] count";
+  [[maybe_unused]] static constexpr const char* columns = "heading[rad] count";
   double heading;
   long count;
 };
 struct Parts {
-  static constexpr const char* columns = "id x[m] y[m]";
+  [[maybe_unused]] static constexpr const char* columns = "id x[m] y[m]";
   double id;
   struct {
     double x, y;

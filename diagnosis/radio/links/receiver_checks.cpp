@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "diagnosis/data/thresholds.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {

@@ -45,7 +45,7 @@ TEST(DatasetFaults, LevelsThatNoReceiverGives) {
       "-999)");
 }
 
-// One in a hundred at most, and 25 dB apart.
+// Three at most, and 30 dB apart.
 TEST(DatasetFaults, FewLevelsFarAboveAllOthersAreTold) {
   const auto notes = [](int count, const std::string& levels) {
     const Scratch scratch;
@@ -65,6 +65,7 @@ TEST(DatasetFaults, FewLevelsFarAboveAllOthersAreTold) {
   EXPECT_THAT(notes(200, one + "1001,a,b,0,0,3,0,26\n").at(0), testing::HasSubstr("25.3 dBm, as 1 more, lies"));
   EXPECT_TRUE(notes(200, near).empty());
   EXPECT_TRUE(notes(50, one).empty());
+  EXPECT_TRUE(notes(900, one + "1001,a,b,0,0,3,0,26\n1002,a,b,0,0,3,0,26\n1003,a,b,0,0,3,0,26\n").empty());
 }
 
 TEST(DatasetFaults, ALogThatIsJoinedToItselfOrHasOneTime) {

@@ -85,7 +85,7 @@ TEST(Refutation, KeptFoldsAreThoseMadeAnew) {
   const auto expect_same = [&](const std::vector<int>& parts, const char* when) {
     const Sample rows{state.y(), state.base()}, readings{problem.measured, problem.base, &problem.bounds};
     const Folds anew(state.field().sites(), parts, state.rows().row_of(), state.fit.covariance, state.options().seed);
-    const Eigen::VectorXd errors = kept.of(state, parts).squared_errors(rows, readings);
+    Eigen::VectorXd errors = kept.of(state, parts).squared_errors(rows, readings);
     EXPECT_EQ((errors - anew.squared_errors(rows, readings)).cwiseAbs().maxCoeff(), 0) << when;
     return errors;
   };
