@@ -11,7 +11,6 @@
 namespace muster::test {
 namespace {
 
-using diagnosis::FitOptions;
 using diagnosis::NoiseFit;
 using testing::ElementsAre;
 using testing::HasSubstr;
