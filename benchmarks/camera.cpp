@@ -114,8 +114,9 @@ class Peer {
         }
         rtcOccluded8(valid, scene_, &context, &shadow);
         for (int i = 0; i < 8; ++i) {
-          const auto column = static_cast<std::size_t>(x + i % 4), row = static_cast<std::size_t>(y + i / 4);
-          const std::size_t at = row * static_cast<std::size_t>(width) + column;
+          const int column = x + i % 4, row = y + i / 4;
+          const std::size_t at =
+              static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
           const Eigen::Vector3f normal =
               Eigen::Vector3f(seen.hit.Ng_x[i], seen.hit.Ng_y[i], seen.hit.Ng_z[i]).normalized();
           depth[at] = seen.ray.tfar[i];
