@@ -169,6 +169,7 @@ std::optional<PlantedCause> two_ray(const Setting&, Random& random) {
 
 // The world has no plan: the data have the number of walls instead.
 std::optional<PlantedCause> counted_walls(const Setting& s, Random& random) {
+  if (!s.counts_walls) return {};
   std::vector<int> often;
   for (std::size_t m = 0; m < s.site.plan.materials.size(); ++m)
     if (s.data.design.col(2 + static_cast<Eigen::Index>(m)).cwiseAbs().sum() >

@@ -39,6 +39,7 @@ struct Setting {
   double shadowing = 0, decorrelation = 1, rician_k = 6;  // of the world
   bool fades_by_reading = false;
   bool both_ways = false;
+  bool counts_walls = false;  // no plan in the world, numbers of walls in the data
 };
 
 struct CauseKind {

@@ -158,8 +158,9 @@ class Maker {
  private:
   Setting setting_now() const {
     const Channel& c = made_.channel;
-    return {made_.site,      made_.measured, simulator_.expected(world_elements(made_)), c.shadowing,
-            c.decorrelation, c.rician_k,     c.fading == Channel::Fading::per_reading,   made_.site.two_way};
+    return {made_.site,        made_.measured, simulator_.expected(world_elements(made_)), c.shadowing,
+            c.decorrelation,   c.rician_k,     c.fading == Channel::Fading::per_reading,   made_.site.two_way,
+            made_.counts_walls};
   }
 
   // A place where links do not show the cause gives way to another.
