@@ -261,8 +261,8 @@ inline constexpr double averaged_choices = 5;
 // nats; by which adjacent readings may contradict a law; chosen;
 // FadingTests.CloseReadingsPreventAnotherLaw
 inline constexpr double contradiction_nats = 2;
-// standard deviations; of two readings, by which adjacent ones differ that heavy tails have drawn; chosen; none
-inline constexpr double far_apart = 4;
+// dB; up to which the distance is sought at which heavy tails show best in adjacent readings; chosen; none
+inline constexpr double far_most = 60;
 // share; of the standard deviation of what heavy tails draw, by which such pairs differ at least; chosen;
 // Survey.TailsOfTheFieldAreNoOutliers
 inline constexpr double far_in_tails = 0.7;

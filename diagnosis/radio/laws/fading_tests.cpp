@@ -165,17 +165,20 @@ class Tests {
   static bool lower(const Peak& a, const Peak& b) { return a.value < b.value; }
 
   // A few readings make up the variance of heavy tails, so that it says little. Where adjacent readings are seldom as
-  // far apart as the law would have them, and as often as without it, its tails are the field's.
+  // far apart as the law would have them, and as often as without it, its tails are the field's. Asked at the distance
+  // that tells the two laws apart best, and beyond what a steep field does.
   bool has_its_far_ones(const CloseReadings& close, const ReadingDistribution& law, const LawPart& tails) const {
-    const double rest = variance_of(law, judge_.step()) - tails.law->variance(tails.params, 1);
-    const double extent = std::sqrt(tails.law->variance(tails.params, 1) / tails.law->beyond(tails.params, 0));
-    const double far = std::max(thresholds::far_apart * std::sqrt(2 * std::max(rest, 0.0)),
-                                thresholds::far_in_tails * extent);  // also beyond what a steep field does
     const auto pairs = static_cast<double>(close.pairs);
+    const ReadingsApart by_law(law, judge_.step(), close.apart), by_null(null_law_, judge_.step(), close.apart);
+    const double extent = std::sqrt(tails.law->variance(tails.params, 1) / tails.law->beyond(tails.params, 0));
+    double far = thresholds::far_in_tails * extent, most = 0;
+    for (double db = far; db < thresholds::far_most; db += 1) {
+      const double nats = off_count(pairs * by_law.beyond(db), pairs * by_null.beyond(db));
+      if (by_law.beyond(db) > by_null.beyond(db) && nats > most) most = nats, far = db;
+    }
     const auto seen = static_cast<double>((close.apart.array() > far).count());
-    const double by_law = 2 * pairs * tails.law->beyond(tails.params, far),
-                 by_null = pairs * std::erfc(far / (2 * std::sqrt(variance_of(null_law_, judge_.step()))));
-    return off_count(seen, by_law) - off_count(seen, by_null) < thresholds::contradiction_nats;
+    return off_count(seen, pairs * by_law.beyond(far)) - off_count(seen, pairs * by_null.beyond(far)) <
+           thresholds::contradiction_nats;
   }
 
   void take_for_null(const ReadingDistribution& law, Peak peak) {

@@ -95,6 +95,13 @@ std::vector<double> with_added(const std::vector<double>& table, const LawPart& 
   return result;
 }
 
+// Densities of one reading at whole bins: the base, what is added to it, and noise.
+std::vector<double> table_of(const ReadingDistribution& law, const BinGrid& grid) {
+  std::vector<double> table = base_table(law, grid);
+  for (const LawPart& part : law.added) table = with_added(table, part, grid.width);
+  return law.noise > 0 ? smeared(table, normal_kernel(law.noise * law.noise, grid.width)) : table;
+}
+
 }  // namespace
 
 double base_variance(const ReadingDistribution& law) {
@@ -112,9 +119,7 @@ ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, 
   constexpr int finer = 2;  // bins of the law itself, before smoothing
   constexpr double fine = bin / finer;
   const BinGrid grid{first_db - bin / 2, fine, bins * finer};
-  std::vector<double> law_table = base_table(law, grid);
-  for (const LawPart& part : law.added) law_table = with_added(law_table, part, fine);
-  if (law.noise > 0) law_table = smeared(law_table, normal_kernel(law.noise * law.noise, fine));
+  std::vector<double> law_table = table_of(law, grid);
   const double mean = mean_of(law_table, grid);
   if (step > 0) law_table = smeared(law_table, box_kernel(step, fine));
   double total = 0;
@@ -136,6 +141,41 @@ ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, 
     variances_.push_back(next);
     table_.insert(table_.end(), level.begin(), level.end());
   }
+}
+
+ReadingsApart::ReadingsApart(const ReadingDistribution& law, double step, const Eigen::VectorXd& seen) {
+  const BinGrid grid{-65, bin, 520};
+  std::vector<double> table = table_of(law, grid);
+  if (step > 0) table = smeared(table, box_kernel(step, bin));
+  std::vector<double> apart(2 * grid.count - 1, 0);  // by the difference of two bins, from the least
+  double sum = 0;
+  for (const double v : table) sum += v;
+  for (std::size_t i = 0; i < grid.count; ++i) {
+    for (std::size_t k = 0; k < grid.count; ++k) apart[grid.count - 1 + i - k] += table[i] * table[k] / (sum * sum);
+  }
+  sum_up(apart);
+  if (seen.size() == 0) return;
+  std::vector<double> sorted(seen.data(), seen.data() + seen.size());
+  const auto half = sorted.begin() + seen.size() / 2;
+  std::nth_element(sorted.begin(), half, sorted.end());
+  if (beyond(*half) >= 0.5) return;
+  double low = 0, high = *half * *half * 3;  // dB^2, of the field; half of normal differences are beyond 0.67 sd
+  for (int round = 0; round < 10; ++round) {
+    const double between = (low + high) / 2;
+    sum_up(smeared(apart, normal_kernel(between, bin)));
+    (beyond(*half) < 0.5 ? low : high) = between;
+  }
+}
+
+void ReadingsApart::sum_up(const std::vector<double>& apart) {
+  const std::size_t middle = apart.size() / 2;
+  beyond_.assign(middle + 1, 0);
+  for (std::size_t k = middle; k > 0; --k) beyond_[k - 1] = beyond_[k] + apart[middle + k] + apart[middle - k];
+}
+
+double ReadingsApart::beyond(double db) const {
+  const auto k = static_cast<std::size_t>(std::max(std::round(db / bin - 0.5), 0.0));
+  return k < beyond_.size() ? beyond_[k] : 0;
 }
 
 }  // namespace muster::diagnosis

@@ -1,6 +1,7 @@
 // Distribution of a single reading about the level of its place: fading, hopping channels, outliers. Densities in dB.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -57,6 +58,24 @@ class ReadingDensities {
   static constexpr double anything = 1e-8;  // per dB
   double lowest_, top_;                     // log variance of the first level; number of levels after it
   std::vector<double> variances_, table_;   // of the levels
+};
+
+// By how many dB two readings of one place differ.
+class ReadingsApart {
+ public:
+  // `seen`: dB, by which pairs do. The field lies between them, too: as much of it, normal, as makes half of the pairs
+  // differ by as much as half of those seen do. None seen: no field.
+  ReadingsApart(const ReadingDistribution& law, double step, const Eigen::VectorXd& seen);
+
+  // Probability that two differ by more than this, dB.
+  double beyond(double db) const;
+
+ private:
+  static constexpr double bin = 0.25;
+
+  void sum_up(const std::vector<double>& apart);
+
+  std::vector<double> beyond_;  // by bin: half a bin, one and a half ...
 };
 
 }  // namespace muster::diagnosis

@@ -85,8 +85,6 @@ bool repeat_places(const LinkReadings& r) {
 
 std::string why_not(const LawSources& s, const VectorXd& residual) {
   if (!s.data.has_places()) return "not testable: the data have no places";
-  if (s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
-    return "not testable: the two directions of a link share a part of their scatter";
   if (tested(residual) < thresholds::fewest_law_readings)
     return "not testable: fewer than 300 readings that are no bounds and farther apart than the way over which fading "
            "changes";
@@ -106,11 +104,8 @@ VectorXd without_grazing(const LawSources& s, const VectorXd& residual, std::vec
 
 VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& rows, VectorXd residual) {
   for (Index i = 0; i < residual.size(); ++i) {
-    if (rows.is_second_twin(i)) continue;
-    const Index other = readings.twin.empty() ? -1 : readings.twin[static_cast<std::size_t>(i)];
-    if (other < 0) continue;
-    residual[i] = (residual[i] + residual[other]) / 2;
-    residual[other] = std::nan("");
+    if (rows.is_second_twin(i) && std::isfinite(residual[readings.twin[static_cast<std::size_t>(i)]]))
+      residual[i] = std::nan("");
   }
   return residual;
 }

@@ -19,7 +19,7 @@ Eigen::VectorXd drawn_anew(const LawSources& sources, const LawPart& law, Eigen:
 // side, an error of a whole wall. Three of those among 20,000 readings resemble outliers.
 Eigen::VectorXd without_grazing(const LawSources& sources, const Eigen::VectorXd& residual,
                                 std::vector<std::string>& notes);
-// Twins count once, by their mean: they share what scatters.
+// Of twins, which share what scatters, one: their mean would scatter by another law than a reading.
 Eigen::VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& rows, Eigen::VectorXd residual);
 // Without the link between these two radios.
 Eigen::VectorXd without_link(const LawSources& sources, const std::set<std::string>& ends, Eigen::VectorXd residual);

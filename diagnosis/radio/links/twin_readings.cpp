@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -36,19 +38,30 @@ std::vector<std::pair<Index, Index>> pairs_of(const LinkReadings& r, const BothW
   return result;
 }
 
-// Half the mean squared step of a series from one entry to the next: the variance of what changes at once.
+// Steps of a series from one entry to the next: half their mean square is the variance of what changes at once.
 class Steps {
  public:
-  void add(double step) {
-    sum_ += step * step / 2;
-    ++count_;
-  }
-  double variance() const { return sum_ / std::max(count_, 1.0); }
-  double count() const { return count_; }
+  void add(double step) { squares_.push_back(step * step / 2); }
+  double count() const { return static_cast<double>(squares_.size()); }
+  double variance() const { return sum(squares_.size()) / std::max(count(), 1.0); }
+  // Of the smaller half of the steps, which a few readings that are far off do not touch.
+  double variance_of_small() const { return sum(squares_.size() / 2) / std::max(count(), 1.0); }
 
  private:
-  double sum_ = 0, count_ = 0;
+  double sum(std::size_t smallest) const {
+    std::vector<double> sorted = squares_;
+    std::sort(sorted.begin(), sorted.end());
+    return std::accumulate(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(smallest), 0.0);
+  }
+
+  std::vector<double> squares_;
 };
+
+bool share_scatter(const Steps& differences, const Steps& means) {
+  return differences.variance() <= thresholds::twins_differ * means.variance() ||
+         (means.variance_of_small() > 0 &&
+          differences.variance_of_small() <= thresholds::twins_differ * means.variance_of_small());
+}
 
 }  // namespace
 
@@ -82,9 +95,7 @@ void find_twins(LinkReadings& r, const Eigen::VectorXd& residual) {
       difference = half;
     }
   }
-  if (of_means.count() < thresholds::fewest_twins ||
-      of_differences.variance() > thresholds::twins_differ * of_means.variance())
-    return;
+  if (of_means.count() < thresholds::fewest_twins || !share_scatter(of_differences, of_means)) return;
   r.twin = std::move(twin);
   r.twin_variance = std::max(of_differences.variance(), std::pow(thresholds::least_difference, 2));
 }
