@@ -198,6 +198,11 @@ inline constexpr double needs_law = 0.3;
 // probability; of as many pairs of successive readings that need it by chance; chosen;
 // Survey.ReadingsThatAreOffInRunsAreNoOutliers
 inline constexpr double pairs_alpha = 1e-4;
+// share; of readings of a link that need a law and are called alike; chosen; none
+inline constexpr double alike_share = 0.25;
+// factor; of that share, beyond which pairs of successive readings are what lasts; chosen;
+// Survey.ReadingsThatAreOffInRunsAreNoOutliers
+inline constexpr double lasting = 2;
 // m; within which two readings of a link are of one place; chosen; none
 inline constexpr double repeats_within = 1e-3;
 // share; of readings that repeat a place where a network stands; chosen; Survey.OutliersInANetworkThatStands

@@ -102,10 +102,27 @@ KrigedReadings kriged(const LawSources& s, const VectorXd& residual) {
 
 const std::string shared = "not testable: readings of one place share a part of their scatter, such as multipath";
 
+// What the directions of a link share is the same in both; a draw of each alone, such as an outlier, is in the mean of
+// twins half as large and twice as often. Names such a law by the means, where one direction has too few of its draws.
+void add_scatter_of_means(const LawSources& s, const ReadingDistribution& stated, const VectorXd& all,
+                          Diagnosis& found) {
+  if (s.readings.twin.empty() ||
+      s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
+    return;
+  std::vector<std::string> told;
+  const VectorXd means = means_of_twins(s.readings, s.state.rows(), all);
+  const VectorXd residual = without_grazing(s, stated.base.law ? drawn_anew(s, stated.base, means) : means, told);
+  KrigedReadings field = kriged(s, residual);
+  Diagnosis of_means = found;
+  add_scatter(s, stated, residual, field, of_means);
+  if (of_means.causes.size() > found.causes.size() && !replaces(s, of_means.causes.back().id)) found = of_means;
+}
+
 // Runs the tests on single readings in turn. Where the world states no law, normal noise and every law that could
 // replace another are the null: what adds outliers must be likelier.
 // `why`: they are not testable; empty if they are.
-void add_laws_of_readings(const LawSources& s, const VectorXd& all, std::string why, Diagnosis& found) {
+void add_laws_of_readings(const LawSources& s, const VectorXd& both_ways, std::string why, Diagnosis& found) {
+  const VectorXd all = without_second_twins(s.readings, s.state.rows(), both_ways);
   ReadingDistribution stated = stated_law(s.model);
   VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
   std::string of_base = stated.base.law ? "" : "not testable: no plugin of the world states a law of readings";
@@ -137,7 +154,10 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& all, std::string 
   if (!why.empty()) return;
   found.notes.insert(found.notes.end(), notes.begin(), notes.end());
   const std::size_t before = found.causes.size();
+  const std::size_t notes_before = found.notes.size();
   const ReadingDistribution law = add_scatter(s, stated, residual, *field, found);
+  if (found.causes.size() == before && found.notes.size() == notes_before)
+    add_scatter_of_means(s, stated, both_ways, found);
   if (!of_field.empty()) return;
   add_field(s, *field, law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
@@ -161,7 +181,7 @@ void add_laws(const LawSources& s, Diagnosis& found) {
   const VectorXd residual = residual_of(s, found);
   const Crossed crossed = add_blockage(s, residual, found);
   if (crossed.all) leave_time_to_people(found);
-  add_laws_of_readings(s, without_second_twins(s.readings, s.state.rows(), without_link(s, crossed.link, residual)),
+  add_laws_of_readings(s, without_link(s, crossed.link, residual),
                        crossed.all ? "not testable: people who cross the links change readings, too" : "", found);
 }
 

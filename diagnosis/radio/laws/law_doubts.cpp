@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "diagnosis/calibration/distributions.hpp"
 #include "diagnosis/radio/laws/scatter_by_level.hpp"
@@ -37,38 +39,64 @@ double beside_walls(const LawSources& s, const VectorXd& residual, const LawTest
   return 0;
 }
 
-// Pairs of successive readings of a link that both need a law, and how many there would be in another order of each
-// link's.
+// Successive readings of a link that both need a law, and are off alike: closer than a quarter of the readings that
+// need it are to another one of their link.
 struct Successive {
-  int pairs = 0;
-  double by_chance = 0;
+  int pairs = 0, alike = 0;
+  double by_chance = 0;  // pairs in another order of each link's readings
 
-  bool in_runs() const { return pairs > 0 && poisson_tail(by_chance, pairs) < thresholds::pairs_alpha; }
+  // What lasts makes more pairs than chance, and nearly all alike. A level that is a little off makes more of them,
+  // too, where a law no longer fits so well, but none more alike than a quarter of them.
+  bool in_runs() const {
+    return pairs > 0 && poisson_tail(by_chance, pairs) < thresholds::pairs_alpha &&
+           alike > thresholds::lasting * thresholds::alike_share * pairs;
+  }
 };
 
+// The difference [dB] below which this share of the readings of a link is from those half as many readings on.
+double alike_below(const std::vector<double>& off) {
+  std::vector<double> apart;
+  for (std::size_t i = 0; i < off.size(); ++i)
+    apart.push_back(std::abs(off[i] - off[(i + off.size() / 2) % off.size()]));
+  const auto at =
+      apart.begin() + static_cast<std::ptrdiff_t>(thresholds::alike_share * static_cast<double>(off.size()));
+  std::nth_element(apart.begin(), at, apart.end());
+  return *at;
+}
+
 Successive successive(const LawSources& s, const VectorXd& residual, const LawTest& law) {
+  struct Link {
+    std::vector<double> off;    // dB, of those that need the law
+    std::vector<double> steps;  // dB, between successive ones
+    bool last_needs = false;
+    double readings = 0;
+  };
   VectorXd won = VectorXd::Constant(residual.size(), std::nan(""));
   for (Index i = 0, tested = 0; i < residual.size(); ++i) {
     if (std::isfinite(residual[i])) won[i] = law.won[tested++];
   }
-  struct Link {
-    bool last_needs = false;
-    double readings = 0, needing = 0;
-  };
   const LinkReadings& r = s.readings;
   std::map<std::pair<int, int>, Link> links;
-  Successive result;
   for (const Index i : in_order_of_time(r)) {
     if (!std::isfinite(won[i])) continue;
     const auto k = static_cast<std::size_t>(i);
     Link& link = links[{r.tx[k], r.rx[k]}];
     const bool needs = won[i] > thresholds::needs_law;
-    result.pairs += needs && link.last_needs;
+    if (needs && link.last_needs) link.steps.push_back(std::abs(residual[i] - link.off.back()));
+    if (needs) link.off.push_back(residual[i]);
     link.last_needs = needs;
     link.readings += 1;
-    link.needing += needs;
   }
-  for (const auto& [ends, link] : links) result.by_chance += link.needing * (link.needing - 1) / link.readings;
+  Successive result;
+  for (const auto& [ends, link] : links) {
+    if (link.off.empty()) continue;
+    const auto needing = static_cast<double>(link.off.size());
+    const double alike = alike_below(link.off);
+    result.by_chance += needing * (needing - 1) / link.readings;
+    result.pairs += static_cast<int>(link.steps.size());
+    result.alike += static_cast<int>(
+        std::count_if(link.steps.begin(), link.steps.end(), [=](double step) { return step < alike; }));
+  }
   return result;
 }
 

@@ -110,6 +110,16 @@ VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& r
   return residual;
 }
 
+VectorXd means_of_twins(const LinkReadings& readings, const noise::Rows& rows, VectorXd residual) {
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (!rows.is_second_twin(i)) continue;
+    const Index first = readings.twin[static_cast<std::size_t>(i)];
+    residual[first] = (residual[first] + residual[i]) / 2;
+    residual[i] = std::nan("");
+  }
+  return residual;
+}
+
 VectorXd without_link(const LawSources& s, const std::set<std::string>& ends, VectorXd residual) {
   const LinkReadings& r = s.readings;
   for (Index i = 0; i < residual.size(); ++i) {

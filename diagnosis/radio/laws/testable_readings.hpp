@@ -21,6 +21,8 @@ Eigen::VectorXd without_grazing(const LawSources& sources, const Eigen::VectorXd
                                 std::vector<std::string>& notes);
 // Of twins, which share what scatters, one: their mean would scatter by another law than a reading.
 Eigen::VectorXd without_second_twins(const LinkReadings& readings, const noise::Rows& rows, Eigen::VectorXd residual);
+// Instead of twins their mean.
+Eigen::VectorXd means_of_twins(const LinkReadings& readings, const noise::Rows& rows, Eigen::VectorXd residual);
 // Without the link between these two radios.
 Eigen::VectorXd without_link(const LawSources& sources, const std::set<std::string>& ends, Eigen::VectorXd residual);
 
