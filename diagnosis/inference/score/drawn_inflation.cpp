@@ -1,8 +1,11 @@
 #include "diagnosis/inference/score/drawn_inflation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/candidate_scores.hpp"
 #include "diagnosis/inference/state/null_calibration.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -29,6 +32,11 @@ noise::Family with_share_of(noise::Family other, noise::Family family) {
   return family;
 }
 
+// Of the field that is drawn: in the stated family, with the fitted reading.
+noise::Covariance of_draws(const ModelState& state, const noise::Covariance& fitted, const noise::StatedField& field) {
+  return noise::as_stated(field, with_share_of(fitted.family, noise::Family::stated), fitted.theta, state.within());
+}
+
 }  // namespace
 
 double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate,
@@ -50,22 +58,43 @@ double drawn_inflation(const ModelState& state, const WhitenedModel& model, cons
   noise::Sheet atoms = model.whitener.sheet(some_atoms(entry));
   model.at.basis.take_out_of(atoms);
   const OrthonormalAtoms unit(std::move(atoms), candidate.design.width);
+  // Means, since half of the gains of a cause of one sign and one atom are none.
   const auto highest = [&](const noise::Sheet& x) {
-    return median(statistics(candidate, unit.along(x)).colwise().maxCoeff());
+    return statistics(candidate, unit.along(x)).colwise().maxCoeff().mean();
   };
   const float usual = highest(state.normals());
   return usual > 0 ? std::max(1.0, static_cast<double>(highest(white.cast<float>()) / usual)) : 1;
+}
+
+HeldAgainstDraws held_against_draws(const ModelState& state, const ColumnsBeside& lead,
+                                    const noise::StatedField& field) {
+  const Candidate& c = lead.candidate;
+  const auto held = [&](const noise::Covariance& covariance) {
+    const WhitenedModel model = state.whitened_model(lead.design, covariance);
+    const double by = drawn_inflation(state, model, c, field);
+    return HeldAgainstDraws{state.log_p(c, gain_of(c, model, lead.columns) / by, lead.columns.cols(), true), by};
+  };
+  const HeldAgainstDraws beside_fit = held(lead.fit.covariance);
+  if (beside_fit.log_p <= state.threshold()) return beside_fit;
+  const noise::Fit as_drawn =
+      noise::fit(state.field(), state.y(), noise::hstack(lead.design, lead.columns), state.options().prior,
+                 of_draws(state, lead.fit.covariance, field), 6, noise::unstated);
+  if (as_drawn.value > lead.fit.value + thresholds::stated_field_nats) return beside_fit;
+  HeldAgainstDraws beside_field = held(as_drawn.covariance);
+  beside_field.log_p += std::log(2.0);  // the likelier of two
+  return beside_field.log_p < beside_fit.log_p ? beside_field : beside_fit;
 }
 
 bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field) {
   const noise::Covariance& fitted = state.fit.covariance;
   if (!state.field().sites().stated || state.drawn(field).cols() == 0) return false;
   if (fitted.reading_variance() < thresholds::unblurred_variance) return true;
-  const auto as = [&](noise::Family family) {
-    return noise::as_stated(field, with_share_of(fitted.family, family), fitted.theta, state.within());
-  };
-  const noise::Covariance place = noise::is_stated(fitted.family) ? as(noise::Family::exponential) : fitted,
-                          stated = as(noise::Family::stated);
+  const noise::Covariance place =
+      noise::is_stated(fitted.family)
+          ? noise::as_stated(field, with_share_of(fitted.family, noise::Family::exponential), fitted.theta,
+                             state.within())
+          : fitted;
+  const noise::Covariance stated = of_draws(state, fitted, field);
   // Nats by which the family of places is likelier.
   const auto apart = [&](const Eigen::VectorXd& y) {
     const auto value = [&](const noise::Covariance& start) {
