@@ -213,11 +213,6 @@ inline constexpr Eigen::Index model_draws = 16;
 inline constexpr double same_field = 0.2;
 // count; atoms of one candidate that are enough to know its highest gain in draws; chosen; none
 inline constexpr std::size_t drawn_atoms = 1000;
-// log; by which a draw's field may be larger or smaller than the fitted one, in variance; chosen;
-// DrawnInflation.IsLessWhereEachDrawIsFitted
-inline constexpr double refitted_log_variance = 1.1;
-// log; and in its distance; chosen; DrawnInflation.IsLessWhereEachDrawIsFitted
-inline constexpr double refitted_log_distance = 0.55;
 // draws; of the model, whose distance from what it states is compared with the data's; chosen; none
 inline constexpr Eigen::Index compared_draws = 6;
 // squared units; of one reading, below which nothing but rounding blurs a field; chosen;

@@ -125,18 +125,16 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   if (log_p <= state.threshold() && trial.log_p > thresholds::log_p_beyond_approximation)
     log_p = std::max(log_p, sure_log_p(state, lead, fit, model));
   log_p += skew;
-  const auto hold = [&](const HeldAgainstDraws& held) {
-    trial.inflation = std::max(trial.inflation, held.inflation);
-    log_p = std::max(log_p, held.log_p);
+  const auto inflate = [&](double by) {
+    trial.inflation = std::max(trial.inflation, by);
+    log_p = std::max(log_p, state.log_p(c, trial.gain / trial.inflation, lead.columns.cols(), true));
   };
   const Eigen::MatrixXd both = noise::hstack(design, lead.columns);
-  if (log_p <= state.threshold()) {
-    const double by = bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns);
-    hold({state.log_p(c, trial.gain / by, lead.columns.cols(), true), by});
-  }
+  if (log_p <= state.threshold())
+    inflate(bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns));
   for (const noise::StatedField& field : state.drawable()) {
     if (log_p <= state.threshold() && resembles_draws(state, both, field))
-      hold(held_against_draws(state, {c, lead.columns, design, fit}, field));
+      inflate(drawn_inflation(state, model, c, field));
   }
   if (log_p <= state.threshold() && noise_decides) {
     const double decided = state.threshold() - skew;
