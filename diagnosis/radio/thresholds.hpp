@@ -266,6 +266,9 @@ inline constexpr double averaged_choices = 5;
 // nats; by which adjacent readings may contradict a law; chosen;
 // FadingTests.CloseReadingsPreventAnotherLaw
 inline constexpr double contradiction_nats = 2;
+// nats; of a count of such pairs, beyond which it contradicts heavy tails: none where three are expected; chosen;
+// FadingTests.OutliersAreFoundUnderRayleighFading
+inline constexpr double far_contradiction_nats = 3;
 // dB; up to which the distance is sought at which heavy tails show best in adjacent readings; chosen; none
 inline constexpr double far_most = 60;
 // share; of the standard deviation of what heavy tails draw, by which such pairs differ at least; chosen;

@@ -178,7 +178,7 @@ class Tests {
     }
     const auto seen = static_cast<double>((close.apart.array() > far).count());
     return off_count(seen, pairs * by_law.beyond(far)) - off_count(seen, pairs * by_null.beyond(far)) <
-           thresholds::contradiction_nats;
+           thresholds::far_contradiction_nats;
   }
 
   void take_for_null(const ReadingDistribution& law, Peak peak) {

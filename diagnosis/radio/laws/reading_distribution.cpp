@@ -174,8 +174,11 @@ void ReadingsApart::sum_up(const std::vector<double>& apart) {
 }
 
 double ReadingsApart::beyond(double db) const {
-  const auto k = static_cast<std::size_t>(std::max(std::round(db / bin - 0.5), 0.0));
-  return k < beyond_.size() ? beyond_[k] : 0;
+  const double place = db / bin - 0.5;
+  if (place < 0) return 1 + (place + 0.5) * 2 * (beyond_[0] - 1);
+  const auto k = static_cast<std::size_t>(place);
+  if (k + 1 >= beyond_.size()) return 0;
+  return beyond_[k] + (place - static_cast<double>(k)) * (beyond_[k + 1] - beyond_[k]);
 }
 
 }  // namespace muster::diagnosis

@@ -25,7 +25,9 @@ inline std::filesystem::path flat(const Scratch& scratch, int seed, const std::s
                        << "<station name=\"s1\" at=\"1 1 1.5\"/><station name=\"s2\" at=\"13 8 1.2\"/>"
                        << "<station name=\"s3\" at=\"9 1 2\"/><station name=\"rover\" at=\"3 3 0.4\"/>\n"
                        << "<radio.multiwall tx_power=\"1\" l0=\"35\" n=\"2\"/>\n"
-                       << "<radio.fading shadowing=\"4\" decorrelation=\"2\" " << fading << "/>\n"
+                       << "<radio.fading "
+                       << (fading.find("shadowing") == fading.npos ? "shadowing=\"4\" decorrelation=\"2\" " : "")
+                       << fading << "/>\n"
                        << "<radio.receiver sensitivity=\"-200\"/>" << more << "</world>\n";
   return world;
 }

@@ -231,6 +231,31 @@ TEST(FadingTests, MeasuresTheShareOfOutliers) {
 }
 
 // Normal noise of 1.5 dB in a world that states no law of readings.
+// Deep fades set adjacent readings as far apart as outliers do, but on one side only.
+TEST(FadingTests, OutliersAreFoundUnderRayleighFading) {
+  const LawTest test = tested({.rician_k = -40, .outliers = 0.04}, {.rician_k = -40}).front();
+  EXPECT_EQ(test.cause, "effect.outliers");
+  EXPECT_LT(test.log_p, std::log(1e-6));
+  ASSERT_FALSE(test.values.empty());
+  EXPECT_NEAR(test.values[0].value, 0.04, 0.02);
+}
+
+// The difference of two Rayleigh powers in dB is logistic: beyond d with probability 2 / (1 + 10^(d / 10)).
+TEST(ReadingsApart, AreLogisticUnderRayleighFading) {
+  const ReadingsApart apart(law_of({.rician_k = -40}), 0, {});
+  for (const double db : {3.0, 10.0, 25.0}) EXPECT_NEAR(apart.beyond(db), 2 / (1 + std::pow(10, db / 10)), 0.003) << db;
+}
+
+// A field between the two makes half of them differ by as much as half of those seen do.
+TEST(ReadingsApart, HaveTheFieldOfThoseSeen) {
+  const Eigen::VectorXd seen = Eigen::VectorXd::LinSpaced(400, 0, 24);
+  ReadingDistribution law = law_of({.rician_k = 60});
+  law.noise = 2;
+  const ReadingsApart apart(law, 1, seen);
+  EXPECT_NEAR(apart.beyond(12), 0.5, 0.02);
+  EXPECT_NEAR(apart.beyond(12 * 1.96 / 0.6745), 0.05, 0.01);  // normal
+}
+
 TEST(FadingTests, OutliersAreFoundWhereNoLawIsStated) {
   const auto tested_without_law = [](double outliers) {
     const Walk walk = drawn({.rician_k = 60, .outliers = outliers, .noise = 1.5}, 2000);
