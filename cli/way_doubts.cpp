@@ -8,6 +8,7 @@
 #include "roadmap/plan.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 #include "text/text_table.hpp"
 
 namespace muster::cli {
@@ -48,12 +49,22 @@ Way way_of(const Simulation& run, const Instance& instance) {
   return way;
 }
 
+// True of places that are not told to be doubtful where the table is read.
+bool is_sound(const TextTable& table) {
+  const auto is_plain = [&](const char* name) {
+    const std::size_t column = table.require(name, "m");
+    return column_doubts(table, column, table.reals(column)).empty();
+  };
+  return is_plain("x") && is_plain("y");
+}
+
 std::string far_away(const Way& way, double until) {
   for (std::size_t i = 0; i < way.points.size() && until > 0; ++i) {
     const double away = rm::distance(way.start, way.points[i]);
-    if (away > far_off && away > fastest * until)
+    if (away > far_off && away > fastest * until && is_sound(way.table))
       return way.table.place(i, 0).text() + ": a way point " + print_real(std::round(away)) +
-             " m away, where no robot comes in the run of " + print_real(until) + " s; are these millimetres?";
+             " m away, where no robot comes in the run of " + print_real(until) +
+             " s; are these centimetres or millimetres?";
   }
   return "";
 }
