@@ -157,7 +157,7 @@ std::vector<std::string> way_doubts(const Simulation& run) {
     std::string doubt = far_away(way, run.world().until());
     if (doubt.empty()) doubt = on_the_globe(way);
     if (doubt.empty()) doubt = at_once(way);
-    if (doubt.empty() && is_hard) doubt = through_wall(run, way);
+    if (doubt.empty() && is_hard && is_sound(way.table)) doubt = through_wall(run, way);
     if (!doubt.empty()) result.push_back(doubt);
   }
   return result;

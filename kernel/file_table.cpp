@@ -66,6 +66,10 @@ std::string of_another_kind(const TextTable& table, const std::vector<std::strin
     return "these places have no times, which follow from the speed; expected " + all +
            " without t (poses over time carry a robot by physics.replay)";
   }
+  const bool is_of_globe = has("lat") || has("latitude") || has("Latitude") || has("Lat");
+  if (is_of_places && is_of_globe)
+    return "places are metres from an origin of your own, x east and y north: a degree of latitude is some 111200 m, "
+           "one of longitude that times cos(latitude)";
   if (is_of_places && has("yaw") && !takes("yaw"))
     return "these places have no headings, which follow from the way; expected x, y without yaw (in a mission, <go_to "
            "at=\"x y\" heading=\"1.57\"/> turns the robot there)";

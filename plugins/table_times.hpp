@@ -34,12 +34,15 @@ class TableTimes {
                      " s, so that only the first of them counts; are these milliseconds? expected seconds of the run");
     if (first <= until_ && last >= 0) return;
     constexpr double since_1970 = 1e8;  // [s] three years, which no run has
+    constexpr double hour = 3600, day = 24 * hour;
+    const bool is_of_day = first > until_ && first >= hour && last < day;
     const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
                              : first > since_1970      ? "; are these seconds since 1970? expected "
+                             : is_of_day               ? "; are these seconds of the day? expected "
                                                        : "; expected ";
     k.event("warning: " + rows_.at(row, "t") + what + " from t = " + print(first) + " to " + print(last) +
             " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit + "seconds of the run" +
-            (first > since_1970 ? ": the time less that of its start" : ""));
+            (first > since_1970 || is_of_day ? ": the time less that of its start" : ""));
   }
 
   double until() const { return until_; }  // [s]; 0: without end

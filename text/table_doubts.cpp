@@ -25,14 +25,6 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Numbers by which loggers mark that there is no value: nines, and the ends of 16 bits.
-bool is_mark(double value) {
-  const double size = std::abs(value);
-  for (const double mark : {999.0, 9999.0, 99999.0, 999999.0, 9999999.0, 32767.0, 32768.0, 65535.0})
-    if (size == mark) return true;
-  return size == 999.9 || size == 9999.9 || size >= 1e30;
-}
-
 // Of marks for no value, which lie far from all that is not one; empty where there are none.
 std::string mark_doubt(const TextTable& table, std::size_t column, const std::vector<double>& values) {
   double largest = 0, mark = std::numeric_limits<double>::quiet_NaN();
@@ -75,6 +67,13 @@ Label parted(const std::string& label) {
 bool is_unit(const std::string& word, const std::string& unit) { return lower(word) == lower(unit); }
 
 }  // namespace
+
+bool is_mark(double value) {
+  const double size = std::abs(value);
+  for (const double mark : {999.0, 9999.0, 99999.0, 999999.0, 9999999.0, 32767.0, 32768.0, 65535.0})
+    if (size == mark) return true;
+  return size == 999.9 || size == 9999.9 || size >= 1e30;
+}
 
 void refuse_negative_length(const TextTable& table, std::size_t column, const std::vector<double>& values) {
   const TextColumn& declared = table.columns()[column];

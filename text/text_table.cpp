@@ -145,9 +145,11 @@ void TextTable::fail_ragged(std::size_t found) const {
     throw invalid(file_.place(end - 1), "a comma stands at the end of the row, and makes an empty cell beyond the " +
                                             std::to_string(width_) + " of the header; expected none there");
   const std::string more = found > width_ ? " or more" : "";
+  const bool is_sum = is_summary(text.substr(start, text.find_first_of(",\r\n", start) - start));
   throw invalid(file_.place(start), "the row has " + std::to_string(found) + more + (found == 1 ? " cell" : " cells") +
                                         "; expected " + std::to_string(width_) +
-                                        ", with ',' between them and '.' in numbers");
+                                        ", with ',' between them and '.' in numbers" +
+                                        (is_sum ? "; a last row of sums or means? expected the table without it" : ""));
 }
 
 void TextTable::read_header() {
@@ -251,7 +253,7 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const std::string meant = as_wanted(cell_text(raw(0, c)), {wanted});
       if (meant.empty()) continue;
-      throw invalid(header_place(c), "column " + quote(cell_text(raw(0, c))) + " is none of the table's; expected " +
+      throw invalid(header_place(c), "column " + quote(cell_text(raw(0, c))) + " is called otherwise here; expected " +
                                          quoted_label(meant));
     }
     throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table, which has " + listed(names) +

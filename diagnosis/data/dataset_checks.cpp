@@ -12,11 +12,12 @@
 #include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double marks[] = {0, -128};  // dBm; of drivers, and of an 8-bit register, without a measurement
+constexpr double marks[] = {0, -127, -128};  // dBm; of drivers, and of 8-bit registers, without a measurement
 
 std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1); }
 
@@ -223,9 +224,12 @@ void check_units(const Dataset& data, const Factor& radio, const std::vector<Poi
     const auto [low, high] = std::minmax_element(sorted.begin(), far);
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::abs(values[k]) < std::abs(*far) || values[k] / 1000 < *low - 1 || values[k] / 1000 > *high + 1) continue;
-      throw invalid(at(data, rows[k], column), row_text(rows[k]) + ": " + print_real(values[k]) +
-                                                   " m, while half of the rows lie within " + print_real(usual) +
-                                                   " m; expected one unit in the whole column (millimetres here?)");
+      throw invalid(
+          at(data, rows[k], column),
+          row_text(rows[k]) + ": " + print_real(values[k]) + " m, while half of the rows lie within " +
+              print_real(usual) + " m; expected " +
+              (is_mark(values[k]) ? "a place in each row: where this is a mark for no value, the table without the row"
+                                  : "one unit in the whole column (millimetres here?)"));
     }
   }
 }

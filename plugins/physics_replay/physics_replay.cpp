@@ -76,7 +76,7 @@ struct PhysicsReplay {
         warn("it moves by " + print(jump) + " m in " + print(time) + " s");
       }
       last[robot] = m;
-      if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) fail("time does not rise");
+      if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) refuse_time(k, i, rows);
     }
     for (std::size_t i = 0; i < courses.size(); ++i) {
       if (!courses[i].track.empty())
@@ -84,6 +84,15 @@ struct PhysicsReplay {
                       "the rows of robot '" + std::string(k.name("robot", i)) + "' are", "it never moves");
     }
     is_read = true;
+  }
+
+  [[noreturn]] void refuse_time(const Step& k, std::size_t row, Rows<const Measured> rows) const {
+    std::size_t before = row - 1;
+    while (rows[before].robot != rows[row].robot) --before;
+    throw BadInput(times.rows().at(row, "t") + "robot '" +
+                   std::string(k.name("robot", static_cast<std::size_t>(rows[row].robot))) +
+                   "': time does not rise: " + print(rows[row].t) + " s after " + print(rows[before].t) +
+                   " s; expected its rows in the order of time, each once");
   }
 
   static constexpr double fastest = 200;  // m/s; no robot is
