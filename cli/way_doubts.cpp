@@ -16,7 +16,8 @@ namespace {
 
 namespace rm = muster::roadmap;
 
-constexpr double far_off = 100;               // m; and
+constexpr double far_off = 100;  // m; and
+constexpr double kilometre = 1000;
 constexpr double fastest = 100;               // m/s, at which no robot reaches it within the run
 constexpr rm::Heights in_the_way{0.05, 0.2};  // m, of what a robot on the ground runs into
 
@@ -63,8 +64,8 @@ std::string far_away(const Way& way, double until) {
     const double away = rm::distance(way.start, way.points[i]);
     if (away > far_off && away > fastest * until && is_sound(way.table))
       return way.table.place(i, 0).text() + ": a way point " + print_real(std::round(away)) +
-             " m away, where no robot comes in the run of " + print_real(until) +
-             " s; are these centimetres or millimetres?";
+             " m away, where no robot comes in the run of " + print_real(until) + " s; are these " +
+             (away < kilometre ? "centimetres?" : "millimetres?");
   }
   return "";
 }

@@ -78,7 +78,9 @@ void take_marks(Dataset& data) {
     if (rows.empty() || nearest < thresholds::mark_apart) continue;
     for (const std::size_t row : rows) data.rssi[row] = std::nan("");
     data.marks.push_back(std::to_string(rows.size()) + " at " + print_real(mark) + " dBm");
-    const std::string why = nearest < 1e300 ? "; the nearest other level is " + print_real(nearest) + " dB away" : "";
+    const std::string why =
+        nearest < 1e300 ? "; the nearest other level is " + print_real(std::round(100 * nearest) / 100) + " dB away"
+                        : "";
     data.notes.push_back(data.marks.back() + ", first in " + row_text(rows[0]) +
                          ": taken as a mark for nothing received" + why);
   }

@@ -67,7 +67,8 @@ TEST(TargetTracking, AnObstacleOfNegativeRadiusIsRefused) {
     run.step();
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(discs + ":3:1: the radius is negative; expected a number from 0, in m"),
+    EXPECT_NE(std::string(error.what())
+                  .find(discs + ":3:5: column \"radius[m]\": -0.5 is negative; expected a number from 0, in m"),
               std::string::npos)
         << error.what();
   }
