@@ -66,6 +66,10 @@ std::string of_another_kind(const TextTable& table, const std::vector<std::strin
     return "these places have no times, which follow from the speed; expected " + all +
            " without t (poses over time carry a robot by physics.replay)";
   }
+  if (takes("x0") && takes("x1") && !has("x0") && (has("x") || has("from") || has("source")))
+    return std::string(has("x") ? "these are places one after the other" : "these are pieces between numbers") +
+           ", and a roadmap is pieces between places; expected x0[m],y0[m],x1[m],y1[m], as `muster roadmap` writes "
+           "them";
   const bool is_of_globe = has("lat") || has("latitude") || has("Latitude") || has("Lat");
   if (is_of_places && is_of_globe)
     return "places are metres from an origin of your own, x east and y north: a degree of latitude is some 111200 m, "

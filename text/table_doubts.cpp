@@ -25,30 +25,6 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Of marks for no value, which lie far from all that is not one; empty where there are none.
-std::string mark_doubt(const TextTable& table, std::size_t column, const std::vector<double>& values) {
-  double largest = 0, mark = std::numeric_limits<double>::quiet_NaN();
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  std::size_t first = 0, marks = 0, others = 0;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    const double value = values[row];
-    if (!std::isfinite(value)) continue;
-    if (is_mark(value) && (marks == 0 || value == mark)) {
-      if (marks++ == 0) first = row, mark = value;
-      continue;
-    }
-    ++others;
-    largest = std::max(largest, std::abs(value));
-    least = std::min(least, value), most = std::max(most, value);
-  }
-  if (marks == 0 || others == 0 || std::abs(mark) < apart * largest) return "";
-  return table.place(first, column).text() + ": column " + quote(table.columns()[column].label()) + ": " +
-         print_real(mark) + (marks > 1 ? " in " + std::to_string(marks) + " rows" : "") +
-         " lies far from all others, " + print_real(least) + (least < most ? " to " + print_real(most) : "") +
-         ": is it a mark for no value? It is taken as a number; expected the table without " +
-         (marks > 1 ? "these rows" : "this row");
-}
-
 struct Label {
   std::string name, unit;
 };
@@ -73,6 +49,28 @@ bool is_mark(double value) {
   for (const double mark : {999.0, 9999.0, 99999.0, 999999.0, 9999999.0, 32767.0, 32768.0, 65535.0})
     if (size == mark) return true;
   return size == 999.9 || size == 9999.9 || size >= 1e30;
+}
+
+std::string mark_doubt(const TextTable& table, std::size_t column, const std::vector<double>& values) {
+  double largest = 0, mark = std::numeric_limits<double>::quiet_NaN();
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  std::size_t first = 0, marks = 0, others = 0;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    const double value = values[row];
+    if (!std::isfinite(value)) continue;
+    if (is_mark(value) && (marks == 0 || value == mark)) {
+      if (marks++ == 0) first = row, mark = value;
+      continue;
+    }
+    ++others;
+    largest = std::max(largest, std::abs(value));
+    least = std::min(least, value), most = std::max(most, value);
+  }
+  if (marks == 0 || others == 0 || std::abs(mark) < apart * largest) return "";
+  return table.place(first, column).text() + ": column " + quote(table.columns()[column].label()) + ": " +
+         print_real(mark) + (marks > 1 ? " in " + std::to_string(marks) + " rows" : "") +
+         " lies far from all others, " + print_real(least) + (least < most ? " to " + print_real(most) : "") +
+         ": is it a mark for no value? expected the table without " + (marks > 1 ? "these rows" : "this row");
 }
 
 void refuse_negative_length(const TextTable& table, std::size_t column, const std::vector<double>& values) {

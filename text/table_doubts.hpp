@@ -15,6 +15,10 @@ void refuse_negative_length(const TextTable& table, std::size_t column, const st
 // True of numbers by which loggers mark that there is no value: nines, and the ends of 16 bits.
 bool is_mark(double value);
 
+// "FILE:LINE:COLUMN: what" of marks for no value, which lie far from all other numbers of the column; empty where there
+// are none.
+std::string mark_doubt(const TextTable& table, std::size_t column, const std::vector<double>& values);
+
 // "FILE:LINE:COLUMN: what" of the first cell of each kind in the column; empty where there is nothing to doubt.
 std::vector<std::string> column_doubts(const TextTable& table, std::size_t column, const std::vector<double>& values);
 

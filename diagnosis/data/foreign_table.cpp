@@ -6,6 +6,7 @@
 #include "text/file_kind.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 #include "text/text_file.hpp"
 
 namespace muster::diagnosis {
@@ -319,6 +320,12 @@ std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, 
   if (row == 0 && is_line_of_units())
     throw invalid(place(row), "the line holds units and no reading; expected it away: sed '" +
                                   std::to_string(place(row).line) + "d' FILE, and the units in the rules of the map");
+  const bool is_sum = row + 1 == rows() && (is_summary(cell) || is_summary(text(row, 0)));
+  if (is_sum || cell == columns_[column])
+    throw invalid(place(row), std::string(is_sum ? "the last line holds sums or means"
+                                                 : "the line repeats the header, as in two logs joined,") +
+                                  " and no reading; expected it away: sed '" + std::to_string(place(row).line) +
+                                  "d' FILE");
   throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell) + advice);
 }
 

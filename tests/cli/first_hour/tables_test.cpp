@@ -27,8 +27,8 @@ std::string recorded(const std::string& rows) {
 
 TEST(Tables, MarksForNoValue) {
   EXPECT_EQ(recorded("0,rover,0.3,0\n1,rover,9999,0\n"),
-            "warning: t.csv:3:9: column \"v[m/s]\": 9999 lies far from all others, 0.3: is it a mark for no value? It "
-            "is taken as a number; expected the table without this row\n");
+            "warning: t.csv:3:9: column \"v[m/s]\": 9999 lies far from all others, 0.3: is it a mark for no value? "
+            "expected the table without this row\n");
   EXPECT_THAT(
       recorded("0,rover,0.3,-999\n0.1,rover,0.2,0.5\n0.2,rover,0.2,-999\n"),
       HasSubstr("warning: t.csv:2:13: column \"w[rad/s]\": -999 in 2 rows lies far from all others, 0.5: is it"));
@@ -69,10 +69,10 @@ TEST(Tables, HeadersOfOthers) {
                         "it: cut -d, -f2- FILE takes it away"));
   EXPECT_THAT(way("lat,lon\n47,8\n"), HasSubstr("places are metres from an origin of your own, x east and y north"));
   EXPECT_EQ(way("x[m],y[m]\n1,1\n-999,-999\n"),
-            "warning: t.csv:3:1: column \"x[m]\": -999 lies far from all others, 1: is it a mark for no value? It is "
-            "taken as a number; expected the table without this row\n"
-            "warning: t.csv:3:6: column \"y[m]\": -999 lies far from all others, 1: is it a mark for no value? It is "
-            "taken as a number; expected the table without this row\n");
+            "warning: t.csv:3:1: column \"x[m]\": -999 lies far from all others, 1: is it a mark for no value? "
+            "expected the table without this row\n"
+            "warning: t.csv:3:6: column \"y[m]\": -999 lies far from all others, 1: is it a mark for no value? "
+            "expected the table without this row\n");
 }
 
 TEST(Tables, ValuesThatHaveNoEffect) {

@@ -105,7 +105,7 @@ TEST(NavigateInputs, WhatIsWrongIsNamedOnce) {
       EndsWith("the table of rssi has no value in a column base[dBm]; expected that of muster map --from base"));
   EXPECT_THAT(refusal("roadmap='way.csv'", {{"way.csv", "x[m],y[m]\n1,1\n"}}, ""), HasSubstr("way.csv:1:1: "));
   EXPECT_THAT(refusal("roadmap='way.csv'", {{"way.csv", "x0[m],y0[m],x1[m],y1[m]\n1,1,1,1\n"}}, ""),
-              EndsWith("row 1 of the roadmap has no length; expected two different ends"));
+              EndsWith("way.csv:2:1: the row has no length; expected two different ends"));
   EXPECT_THAT(refusal("", {}, ""), EndsWith("the robot has no roadmap; expected roadmap=\"FILE\" of muster roadmap, or "
                                             "<robots.roadmap robot=\"rover\"/> in the world"));
   EXPECT_EQ(refusal("", {}), "");
