@@ -25,6 +25,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+double rounded(double value) { return std::round(value * 1e6) / 1e6; }
+
 struct Label {
   std::string name, unit;
 };
@@ -69,7 +71,8 @@ std::string mark_doubt(const TextTable& table, std::size_t column, const std::ve
   if (marks == 0 || others == 0 || std::abs(mark) < apart * largest) return "";
   return table.place(first, column).text() + ": column " + quote(table.columns()[column].label()) + ": " +
          print_real(mark) + (marks > 1 ? " in " + std::to_string(marks) + " rows" : "") +
-         " lies far from all others, " + print_real(least) + (least < most ? " to " + print_real(most) : "") +
+         " lies far from all others, " + print_real(rounded(least)) +
+         (least < most ? " to " + print_real(rounded(most)) : "") +
          ": is it a mark for no value? expected the table without " + (marks > 1 ? "these rows" : "this row");
 }
 

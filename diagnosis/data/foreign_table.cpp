@@ -313,6 +313,10 @@ bool ForeignTable::is_line_of_units() const {
 
 std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, const std::string& advice) const {
   std::string cell(text(row, column));
+  // A word such as Total below numbers, in whatever column.
+  if (row > 0 && row + 1 == rows() && is_summary(text(row, 0)) && parse_real(text(row - 1, 0)))
+    throw invalid(place(row), "the last line holds sums or means and no reading; expected it away: sed '" +
+                                  std::to_string(place(row).line) + "d' FILE");
   if (shape_.decimal_comma && cell.find('.') == cell.npos) std::replace(cell.begin(), cell.end(), ',', '.');
   if (cell.size() > 1 && cell[0] == '+') cell.erase(0, 1);  // as loggers print it
   if (const auto value = parse_real(cell)) return value;
@@ -320,12 +324,9 @@ std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, 
   if (row == 0 && is_line_of_units())
     throw invalid(place(row), "the line holds units and no reading; expected it away: sed '" +
                                   std::to_string(place(row).line) + "d' FILE, and the units in the rules of the map");
-  const bool is_sum = row + 1 == rows() && (is_summary(cell) || is_summary(text(row, 0)));
-  if (is_sum || cell == columns_[column])
-    throw invalid(place(row), std::string(is_sum ? "the last line holds sums or means"
-                                                 : "the line repeats the header, as in two logs joined,") +
-                                  " and no reading; expected it away: sed '" + std::to_string(place(row).line) +
-                                  "d' FILE");
+  if (cell == columns_[column])
+    throw invalid(place(row), "the line repeats the header, as in two logs joined; expected it away: sed '" +
+                                  std::to_string(place(row).line) + "d' FILE");
   throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell) + advice);
 }
 

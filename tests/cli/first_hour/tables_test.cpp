@@ -75,6 +75,30 @@ TEST(Tables, HeadersOfOthers) {
             "expected the table without this row\n");
 }
 
+TEST(Tables, ASpeedOfNothing) {
+  const auto with = [](const std::string& attribute) {
+    return told(
+        "<robot name=\"rover\" at=\"0 0 0\"/><physics.planar/>\n<control.waypoint robot=\"rover\" path=\"t.csv\" " +
+            attribute + "/>",
+        "x[m],y[m]\n1,1\n");
+  };
+  EXPECT_EQ(with("speed=\"0\""),
+            "warning: world.xml:3:53: attribute \"speed\": 0 m/s: the robot never moves; expected a speed above 0\n");
+  EXPECT_THAT(with("turn_speed=\"0\""), HasSubstr("0 rad/s: the robot never turns to where it is to go"));
+  EXPECT_EQ(with("speed=\"0.1\""), "");
+}
+
+TEST(Tables, RoadmapsOfOthers) {
+  const auto by = [](const std::string& roadmap) {
+    return told(
+        "<robot name=\"rover\" at=\"0 0 0\"/><physics.planar/><control.navigate robot=\"rover\" roadmap=\"t.csv\"/>",
+        roadmap);
+  };
+  EXPECT_THAT(by("x[m],y[m]\n1,2\n"), HasSubstr("these are places one after the other, and a roadmap is pieces between "
+                                                "places; expected x0[m],y0[m],x1[m],y1[m]"));
+  EXPECT_THAT(by("from,to,weight\n1,2,3\n"), HasSubstr("these are pieces between numbers, and a roadmap is pieces"));
+}
+
 TEST(Tables, ValuesThatHaveNoEffect) {
   const auto areas = [](const std::string& rows) {
     return told(

@@ -95,6 +95,15 @@ std::string refusal(const std::string& attributes, const std::map<std::string, s
   return "";
 }
 
+TEST(NavigateInputs, ARoadmapElsewhereIsToldOf) {
+  const Folder folder;
+  folder.write("way.csv", "x0[m],y0[m],x1[m],y1[m]\n200,100,300,100\n300,100,700,100\n");
+  Simulation run = navigating(folder, "7,1\n", "roadmap='way.csv'", "", "");
+  run.step();
+  EXPECT_THAT(run.events(), testing::Contains(testing::Field(&Event::message,
+                                                             testing::HasSubstr("way.csv:2:1: the roadmap begins "))));
+}
+
 TEST(NavigateInputs, WhatIsWrongIsNamedOnce) {
   using testing::EndsWith;
   using testing::HasSubstr;
