@@ -33,9 +33,9 @@ class TableTimes {
                      " s and later, and the run ends at " + print(until_) +
                      " s, so that only the first of them counts; are these milliseconds? expected seconds of the run");
     if (first <= until_ && last >= 0) return;
-    constexpr double since_1970 = 1e8;  // [s] three years, which no run has
-    constexpr double hour = 3600, day = 24 * hour;
-    const bool is_of_day = first > until_ && first >= hour && last < day;
+    constexpr double since_1970 = 1e8;                     // [s] three years, which no run has
+    constexpr double morning = 6 * 3600, day = 24 * 3600;  // s
+    const bool is_of_day = first > until_ && first >= morning && last < day;
     const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
                              : first > since_1970      ? "; are these seconds since 1970? expected "
                              : is_of_day               ? "; are these seconds of the day? expected "

@@ -189,7 +189,8 @@ struct ControlNavigate {
     const std::string begin = "row ", end = " of the roadmap ";
     const auto at = what.find(end);
     if (!road_rows || what.rfind(begin, 0) != 0 || at == what.npos) return what;
-    const std::size_t row = std::stoul(what.substr(begin.size(), at - begin.size()));
+    std::size_t row = 1;
+    std::from_chars(what.data() + begin.size(), what.data() + at, row);
     return road_rows->at(row - 1) + "the row " + what.substr(at + end.size());
   }
 

@@ -144,6 +144,9 @@ TEST(Replay, TimesThatTheRunNeverComesToAreWarnedOf) {
                 "are these seconds since 1970? expected seconds of the run: the time less that of its start");
   EXPECT_EQ(said("5000,a,0,0,0\n5001,a,1,0,0\n"),
             ".csv:2:1: the rows of robot 'a' are from t = 5000 to 5001" + end + "expected seconds of the run");
+  EXPECT_EQ(said("43200,a,0,0,0\n43201,a,1,0,0\n"),
+            ".csv:2:1: the rows of robot 'a' are from t = 43200 to 43201 s, and the run is from 0 to 600 s, so that it "
+            "never moves; are these seconds of the day? expected seconds of the run: the time less that of its start");
   EXPECT_EQ(said("-5,a,0,0,0\n-4,a,1,0,0\n"),
             ".csv:2:1: the rows of robot 'a' are from t = -5 to -4" + end + "expected seconds of the run");
   EXPECT_EQ(said("-5,a,0,0,0\n0.5,a,1,0,0\n"), "");

@@ -62,9 +62,8 @@ TEST(TargetTracking, AnObstacleOfNegativeRadiusIsRefused) {
   for (InstanceDeclaration& each : world.instances)
     for (XmlAttribute& given : each.attributes)
       if (given.name == "obstacles") given.value = discs;
-  Simulation run(std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
   try {
-    run.step();
+    Simulation run(std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what())
