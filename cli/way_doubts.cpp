@@ -16,8 +16,8 @@ namespace {
 
 namespace rm = muster::roadmap;
 
-constexpr double far_off = 100;  // m; and
-constexpr double kilometre = 1000;
+constexpr double kilometre = 1000;            // m
+constexpr double far_off = 100;               // m; and
 constexpr double fastest = 100;               // m/s, at which no robot reaches it within the run
 constexpr rm::Heights in_the_way{0.05, 0.2};  // m, of what a robot on the ground runs into
 

@@ -76,6 +76,7 @@ void take_marks(Dataset& data) {
         nearest = std::min(nearest, std::abs(v - mark));
     }
     if (rows.empty() || nearest < thresholds::mark_apart) continue;
+    if (mark == -127 && rows.size() < 2) continue;  // one alone may be a fade
     for (const std::size_t row : rows) data.rssi[row] = std::nan("");
     data.marks.push_back(std::to_string(rows.size()) + " at " + print_real(mark) + " dBm");
     const std::string why =
