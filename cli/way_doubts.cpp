@@ -8,6 +8,7 @@
 #include "roadmap/plan.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 #include "text/text_table.hpp"
 
 namespace muster::cli {
@@ -15,6 +16,7 @@ namespace {
 
 namespace rm = muster::roadmap;
 
+constexpr double kilometre = 1000;            // m
 constexpr double far_off = 100;               // m; and
 constexpr double fastest = 100;               // m/s, at which no robot reaches it within the run
 constexpr rm::Heights in_the_way{0.05, 0.2};  // m, of what a robot on the ground runs into
@@ -48,12 +50,22 @@ Way way_of(const Simulation& run, const Instance& instance) {
   return way;
 }
 
+// True of places that are not told to be doubtful where the table is read.
+bool is_sound(const TextTable& table) {
+  const auto is_plain = [&](const char* name) {
+    const std::size_t column = table.require(name, "m");
+    return column_doubts(table, column, table.reals(column)).empty();
+  };
+  return is_plain("x") && is_plain("y");
+}
+
 std::string far_away(const Way& way, double until) {
   for (std::size_t i = 0; i < way.points.size() && until > 0; ++i) {
     const double away = rm::distance(way.start, way.points[i]);
-    if (away > far_off && away > fastest * until)
+    if (away > far_off && away > fastest * until && is_sound(way.table))
       return way.table.place(i, 0).text() + ": a way point " + print_real(std::round(away)) +
-             " m away, where no robot comes in the run of " + print_real(until) + " s; are these millimetres?";
+             " m away, where no robot comes in the run of " + print_real(until) + " s; are these " +
+             (away < kilometre ? "centimetres?" : "millimetres?");
   }
   return "";
 }
@@ -146,7 +158,7 @@ std::vector<std::string> way_doubts(const Simulation& run) {
     std::string doubt = far_away(way, run.world().until());
     if (doubt.empty()) doubt = on_the_globe(way);
     if (doubt.empty()) doubt = at_once(way);
-    if (doubt.empty() && is_hard) doubt = through_wall(run, way);
+    if (doubt.empty() && is_hard && is_sound(way.table)) doubt = through_wall(run, way);
     if (!doubt.empty()) result.push_back(doubt);
   }
   return result;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "description/file_text.hpp"
 #include "description/robot.hpp"
 
 namespace muster::description::starts {
@@ -82,6 +83,16 @@ struct Fault {
   std::string message;
 };
 
+// Where the third number of `at` is a usual angle and there is no heading, as in a pose of ROS in the plane.
+inline std::string heading_as_height(const Pose& pose) {
+  constexpr double thirtieth = 3.141592653589793 / 6, fortyfifth = 3.141592653589793 / 4, rounding = 0.006;
+  const bool has_turn = pose.qx != 0 || pose.qy != 0 || pose.qz != 0;
+  const auto is_near = [&](double part) { return std::abs(std::remainder(pose.z, part)) < rounding; };
+  if (has_turn || pose.z < thirtieth - rounding || !(is_near(thirtieth) || is_near(fortyfifth))) return "";
+  return "; is the third number a heading? at=\"" + print_number(pose.x) + ' ' + print_number(pose.y) +
+         " 0\" heading=\"" + print_number(std::round(pose.z * 1e4) / 1e4) + '"';
+}
+
 // One for each robot that starts with its middle below the ground (z = 0), on wheels or legs far above it, in a wall,
 // or in a robot before it. `pose_of(row)`, `robot_of(row)`: null for a robot that is not there; `name_of(set, row)`.
 template <class PoseOf, class RobotOf, class NameOf>
@@ -111,7 +122,8 @@ std::vector<Fault> faults(std::size_t robots, const PoseOf& pose_of, const Robot
     if ((robot->drive || robot->legs) && !robot->quadrotor && foot > high && std::isfinite(foot))
       result.push_back({i, "robot '" + std::string(name_of("robot", i)) + "' starts " + millimetres(foot) +
                                " mm above the ground, and falls; expected a place (at) on it, z = " +
-                               (pose.z - foot < high / 10 ? "0" : millimetres(pose.z - foot) + " mm")});
+                               (pose.z - foot < high / 10 ? "0" : millimetres(pose.z - foot) + " mm") +
+                               heading_as_height(pose)});
     double lowest = 0, highest = -std::numeric_limits<double>::infinity();
     for (const Block& b : blocks[i]) lowest = std::min(lowest, b.low), highest = std::max(highest, b.high);
     if (lowest + highest < 0)

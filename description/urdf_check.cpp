@@ -230,7 +230,7 @@ void add_name(const Source& source, std::map<std::string, int>& lines, const XML
   const auto [known, added] = lines.emplace(name, element.GetLineNum());
   if (added) return;
   source.fail(element.GetLineNum(), std::string(element.Name()) + " '" + name + "' is there twice; first in line " +
-                                        std::to_string(known->second));
+                                        std::to_string(known->second) + "; expected another name for one of them");
 }
 
 }  // namespace

@@ -311,6 +311,8 @@ int Instance::file(const std::string& param, const std::string& columns) {
   made.file = read_file_table(path, made.columns, closed, *around_.board, *around_.tables);
   for (const std::string& unread : unread_columns(path, made.columns, *around_.tables))
     events.push_back("warning: " + unread);
+  for (const std::string& doubt : doubtful_cells(path, made.columns, *made.file, *around_.tables))
+    events.push_back("warning: " + doubt);
   if (filled && made.file->rows == 0)
     throw invalid({path.string(), 1, 1}, "has no rows below its header; expected one at least");
   claims_.push_back(std::move(made));

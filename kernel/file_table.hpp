@@ -19,4 +19,9 @@ std::unique_ptr<Cells> read_file_table(const std::filesystem::path& path, const 
 // Warnings of columns that are not read and mean one that is not there, as `theta` means `yaw`.
 std::vector<std::string> unread_columns(const std::filesystem::path& path, const Columns& columns, TableCache& tables);
 
+// Warnings of numbers in a file's cells that look like something else: marks for no value, degrees, places on the
+// globe.
+std::vector<std::string> doubtful_cells(const std::filesystem::path& path, const Columns& columns, const Cells& cells,
+                                        TableCache& tables);
+
 }  // namespace muster

@@ -137,6 +137,28 @@ bool means_all(const std::string& row) {
   return false;
 }
 
+// A row's name where a choice is wanted, and another attribute takes names: "base" of <sensors.range to="base"/>.
+void refuse_row_as_choice(const muster_plugin& plugin, const muster_param& param, const XmlAttribute& given,
+                          const Blackboard& board) {
+  const auto words = choices(param);
+  if (std::find(words.begin(), words.end(), given.value) != words.end()) return;
+  for (const char* name : {"radio", "robot"}) {
+    const Set* set = board.find_set(name);
+    if (!set || set->find(given.value) < 0) continue;
+    for (uint32_t i = 0; i < plugin.param_count; ++i) {
+      const muster_param& other = plugin.params[i];
+      const bool takes_it =
+          other.kind == MUSTER_REFERENCE
+              ? std::string(other.text) == name
+              : other.kind == MUSTER_TEXT && std::string(other.help).starts_with("names of " + std::string(name));
+      if (!takes_it) continue;
+      throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + quote(given.value) +
+                                           " is not a choice, but a " + name + "; " + expected_one_of(words) + ", or " +
+                                           other.name + "=\"" + given.value + "\" in its place");
+    }
+  }
+}
+
 // A reference in a plugin's source to a set that is none: "robots" for "robot".
 void refuse_unknown_set(const muster_param& param, const muster_plugin& plugin, const Blackboard& board,
                         const std::string& row, const Place& place) {
@@ -190,6 +212,7 @@ void Instance::check_attributes() {
     if (found < 0) refuse_unknown(given, declared_.plugin, valid);
     const auto& param = plugin_->params[found];
     asked = &param;
+    if (param.kind == MUSTER_CHOICE) refuse_row_as_choice(*plugin_, param, given, *around_.board);
     const auto values = attribute_values(param, 1, given, find_row, warn);
     if (values.empty())
       texts_[given.name] = given.value;

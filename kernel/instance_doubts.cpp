@@ -57,6 +57,16 @@ std::string of_time(uint32_t phase, const muster_param& declared, double value, 
   return "";
 }
 
+// Of a controller's limit of 0, at which it does nothing; "" of other parameters.
+std::string never_moves(const muster_param& declared) {
+  const std::string_view name = declared.name, unit = declared.unit;
+  const std::string zero = "0 " + std::string(unit);
+  if (name == "speed" && unit == "m/s") return zero + ": the robot never moves; expected a speed above 0";
+  if ((name == "turn_speed" && unit == "rad/s") || (name == "turn_gain" && unit == "1/s"))
+    return zero + ": the robot never turns to where it is to go; expected a number above 0";
+  return "";
+}
+
 // Warns once for each condition that does not hold, at the first attribute that counts only with it.
 void warn_of_idle(const muster_plugin& plugin, const std::vector<double>& values, const InstanceDeclaration& declared,
                   const World& world, const Warn& warn) {
@@ -112,6 +122,9 @@ void check_together(const muster_plugin& plugin, const std::vector<double>& valu
     const double value = values[static_cast<std::size_t>(number)];
     std::string doubt =
         of_time(plugin.phase, param, value, world.dt * static_cast<double>(declared.every), world.until());
+    if (plugin.phase == MUSTER_CONTROL && value == 0 && !(param.flags & MUSTER_FREE) &&
+        !is_set_later(world, declared.name + '/' + given.name))
+      doubt = never_moves(param);
     if (given.name == "until" && value == 0) doubt = "0 s is the start of the run, so that it does nothing";
     if (!doubt.empty()) warn(given.value_place, "attribute " + quote(given.name) + ": " + doubt);
   }

@@ -127,7 +127,12 @@ std::string Linker::expected_writer(const TableName& name, const std::string& ta
   if (!standard || !name.part.empty()) return suggest(table, readable());
   const std::string writer = *standard->writer ? standard->writer : standard->provider;
   if (!writer.empty()) return "expected a plugin that does, such as <" + writer + "/>";
-  return "expected a plugin of your own that does (muster new controller NAME begins one)";
+  const std::string own = "expected a plugin of your own that does (muster new controller NAME begins one)";
+  const bool is_car = name.quantity == "car_command";  // <control.car> makes commands of a controller's
+  return own + (is_car ? ", or, in the place of " + std::string(standard->user) +
+                             ", a controller that finds its own way, such as <control.waypoint robot=\"...\" "
+                             "path=\"FILE.csv\"/>"
+                       : "");
 }
 
 void Linker::check_reads(const std::string& logical, const Claimed& c) const {

@@ -137,12 +137,18 @@ void Simulation::rehearse(const PluginChange& planned, std::vector<Instance*>& t
   replacement.name = planned.instance;
   made.push_back(make(std::move(replacement)));
   const Instance &now = **found, &next = *made.back();
+  const auto meant = std::find_if(there.begin(), there.end(), [&](const Instance* each) {
+    return each->phase() == next.phase() && next.phase() != now.phase();
+  });
   if (next.phase() != now.phase())
     events_.push_back({0, "",
                        "warning: " + (planned.place.file.empty() ? "" : planned.place.text() + ": ") +
                            "the swap puts " + next.plugin().id + ", of the phase " + phase_name(next.phase()) +
                            ", in the place of " + now.plugin().id + ", of " + phase_name(now.phase()) +
-                           ", whose work nobody does then; expected a plugin of " + phase_name(now.phase())});
+                           ", whose work nobody does then; expected a plugin of " + phase_name(now.phase()) +
+                           (meant == there.end() ? ""
+                                                 : ", or instance " + quote((*meant)->name()) + " to be swapped, " +
+                                                       (*meant)->plugin().id + " of " + phase_name(next.phase()))});
   *found = made.back().get();
 }
 

@@ -29,19 +29,23 @@ class TableTimes {
     const auto [first, second, last, row] = span;
     if (!(until_ > 0)) return;
     if (first >= 0 && first <= until_ && second > until_)
-      return k.event("warning: " + rows_.at(row) + what + " at t = " + print(first) + " s, " + print(second) +
+      return k.event("warning: " + rows_.at(row, "t") + what + " at t = " + print(first) + " s, " + print(second) +
                      " s and later, and the run ends at " + print(until_) +
                      " s, so that only the first of them counts; are these milliseconds? expected seconds of the run");
     if (first <= until_ && last >= 0) return;
-    constexpr double since_1970 = 1e8;  // [s] three years, which no run has
+    constexpr double since_1970 = 1e8;                     // [s] three years, which no run has
+    constexpr double morning = 6 * 3600, day = 24 * 3600;  // s
+    const bool is_of_day = first > until_ && first >= morning && last < day;
     const std::string unit = first > 1000 * since_1970 ? "; are these milliseconds or less since 1970? expected "
                              : first > since_1970      ? "; are these seconds since 1970? expected "
+                             : is_of_day               ? "; are these seconds of the day? expected "
                                                        : "; expected ";
-    k.event("warning: " + rows_.at(row) + what + " from t = " + print(first) + " to " + print(last) +
+    k.event("warning: " + rows_.at(row, "t") + what + " from t = " + print(first) + " to " + print(last) +
             " s, and the run is from 0 to " + print(until_) + " s, so that " + so + unit + "seconds of the run" +
-            (first > since_1970 ? ": the time less that of its start" : ""));
+            (first > since_1970 || is_of_day ? ": the time less that of its start" : ""));
   }
 
+  double until() const { return until_; }  // [s]; 0: without end
   const TableRows& rows() const { return rows_; }
 
   static std::string print(double value) {

@@ -120,6 +120,13 @@ Variation variation_of(const XmlElement& element) {
       throw invalid(word.place, "values: " + quote(word.text) +
                                     " is a range, and values are a list with blanks between them; expected values=\"" +
                                     list + '"');
+    if (const auto mark = word.text.find_first_of(";|"); mark != word.text.npos && mark > 0) {
+      std::string apart = word.text;
+      std::replace(apart.begin(), apart.end(), word.text[mark], ' ');
+      throw invalid(word.place, "values: " + quote(word.text) + " has " +
+                                    (word.text[mark] == ';' ? "semicolons" : "bars") +
+                                    " between values; expected blanks: values=\"" + apart + '"');
+    }
     if (word.text.find(',') != word.text.npos && word.text.find_first_not_of("0123456789.,+-eE") == word.text.npos)
       throw invalid(word.place, "values: " + quote(word.text) +
                                     " is not a number; expected numbers with blanks between "

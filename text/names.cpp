@@ -127,6 +127,9 @@ std::string by_part(std::string_view wrong, const std::vector<std::string>& vali
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     std::string meant = part->size() < telling ? "" : synonym(*part, valid);
     if (!meant.empty()) return meant;
+    // A frame of ROS: "/robot1/base_link".
+    if (parts.size() > 1 && part->size() >= telling && std::find(valid.begin(), valid.end(), *part) != valid.end())
+      return std::string(*part);
   }
   std::string found;
   for (const std::string& name : valid) {

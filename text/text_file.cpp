@@ -137,7 +137,8 @@ TextFile read_text_file(const std::filesystem::path& path, std::uint64_t most_by
   TextFile result{path.string(), read_bytes(path, most_bytes)};
   std::string& text = result.text;
   const Place place{result.file};
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw invalid(place, "is UTF-16; expected UTF-8");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw invalid(place, "is UTF-16; expected UTF-8: iconv -f UTF-16 -t UTF-8 " + path.filename().string() + " > NEW");
   if (text.starts_with("\x1F\x8B")) throw invalid(place, "is compressed by gzip; expected plain text");
   if (const std::string kind = file_kind(text.substr(0, 256));
       !kind.empty() && kind != "XML" && kind != "JSON" && kind != "a DXF drawing" && kind != "a snapshot of muster" &&

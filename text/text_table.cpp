@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <regex>
 #include <unordered_map>
 
 #include "file_kind.hpp"
+#include "foreign_lines.hpp"
 #include "names.hpp"
 #include "number.hpp"
+#include "table_doubts.hpp"
 #include "unit_words.hpp"
 
 namespace muster {
@@ -23,38 +24,8 @@ struct TextHash : std::hash<std::string_view> {
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; }
 bool is_quoted(std::string_view raw) { return raw.starts_with('"'); }
-// ": 1 ms is 0.001 s"; empty for units that have nothing in common.
-std::string conversion(const std::string& from, const std::string& to) {
-  struct Known {
-    std::string_view from, to, words;
-  };
-  static constexpr Known known[] = {{"ms", "s", "1 ms is 0.001 s"},
-                                    {"us", "s", "1 us is 0.000001 s"},
-                                    {"cm", "m", "1 cm is 0.01 m"},
-                                    {"mm", "m", "1 mm is 0.001 m"},
-                                    {"deg", "rad", "1 deg is 0.0174533 rad"},
-                                    {"mW", "dBm", "10 log10 of the milliwatts"}};
-  for (const Known& one : known)
-    if (one.from == from && one.to == to) return ": " + std::string(one.words);
-  return "";
-}
 bool has_outer_space(std::string_view text) {
   return !text.empty() && (text.front() == ' ' || text.front() == '\t' || text.back() == ' ' || text.back() == '\t');
-}
-
-// Throws Error for a first line between ';' or tabs.
-void refuse_foreign(const std::string& first, const std::string& second, const Place& place) {
-  const std::size_t mark = first.find_first_of(";\t");
-  if (mark == first.npos) return;
-  const bool is_tab = first[mark] == '\t';
-  static const std::regex decimal_comma("(^|[;\t])[+-]?[0-9]+,[0-9]+");
-  const bool has_decimal_comma = std::regex_search(second, decimal_comma);
-  const std::string separator = is_tab ? "tabs" : "';'", word = is_tab ? "s/\\t/,/g" : "s/;/,/g";
-  throw invalid(place,
-                "cells stand between " + separator + (has_decimal_comma ? ", and numbers have decimal commas" : "") +
-                    "; expected ',' between cells and '.' in numbers: sed '" + (has_decimal_comma ? "s/,/./g; " : "") +
-                    word + "' FILE makes them so (readings: muster import FILE --map MAP --out FILE" +
-                    (has_decimal_comma ? ", with decimal = comma in the map)" : ")"));
 }
 
 }  // namespace
@@ -152,7 +123,13 @@ void TextTable::fail_ragged(std::size_t found) const {
   const std::size_t start = row_starts_.back();
   const std::string& text = file_.text;
   if (text[start] == '\n' || text[start] == '\r')
-    throw invalid(file_.place(start), "the line is empty; expected a row");
+    throw invalid(file_.place(start), text.find_first_not_of("\r\n", start) == text.npos
+                                          ? "the file ends in an empty line; expected none below the last row"
+                                          : "the line is empty; expected a row");
+  if (const bool is_first = row_starts_.size() == 2 && width_ == 1; is_comment(is_first ? text : text.substr(start)))
+    throw invalid(file_.place(is_first ? 0 : start), "the line is a comment, and tables have none; expected " +
+                                                         std::string(is_first ? "the header" : "a row") +
+                                                         ": grep -v '^[#%]' FILE leaves comments out");
   const std::string first = text.substr(0, text.find_first_of("\r\n"));
   if (width_ == 1 && first.find(": ") != first.npos)
     throw invalid(file_.place(0), "the first line is " + quote(first) +
@@ -168,9 +145,11 @@ void TextTable::fail_ragged(std::size_t found) const {
     throw invalid(file_.place(end - 1), "a comma stands at the end of the row, and makes an empty cell beyond the " +
                                             std::to_string(width_) + " of the header; expected none there");
   const std::string more = found > width_ ? " or more" : "";
+  const bool is_sum = is_summary(text.substr(start, text.find_first_of(",\r\n", start) - start));
   throw invalid(file_.place(start), "the row has " + std::to_string(found) + more + (found == 1 ? " cell" : " cells") +
                                         "; expected " + std::to_string(width_) +
-                                        ", with ',' between them and '.' in numbers");
+                                        ", with ',' between them and '.' in numbers" +
+                                        (is_sum ? "; a last row of sums or means? expected the table without it" : ""));
 }
 
 void TextTable::read_header() {
@@ -271,6 +250,12 @@ std::size_t TextTable::require(std::string_view name, std::string_view unit) con
     constexpr std::size_t telling = 3;
     std::string near = nearest(name, names);
     if (name.size() < telling || near.size() < telling) near.clear();
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const std::string meant = as_wanted(cell_text(raw(0, c)), {wanted});
+      if (meant.empty()) continue;
+      throw invalid(header_place(c), "column " + quote(cell_text(raw(0, c))) + " is called otherwise here; expected " +
+                                         quoted_label(meant));
+    }
     throw invalid(header_place(0), "no column " + quote(wanted.label()) + " in the table, which has " + listed(names) +
                                        (near.empty() ? "" : "; did you mean " + quote(near) + "?"));
   }
@@ -330,7 +315,10 @@ std::vector<double> TextTable::reals(std::size_t column, Allow allow) const {
     } else if (cell_text(cell) == columns_[column].label()) {
       throw invalid(place(row, 0), "the line repeats the header, as in two tables joined; expected one header");
     } else {
-      fail_cell(row, column, why_not_number(cell, allow) + other_unit_hint(columns_[column].unit, cell));
+      const bool is_sum = row + 1 == rows() && (is_summary(cell_text(cell)) || is_summary(text(row, 0)));
+      fail_cell(row, column,
+                why_not_number(cell, allow) + other_unit_hint(columns_[column].unit, cell) +
+                    (is_sum ? "; a last row of sums or means? expected the table without it" : ""));
     }
   }
   return values;
@@ -384,6 +372,7 @@ std::string TextTable::why_not_number(std::string_view raw, Allow allow) {
   if (parse_real(text)) return quote(text) + " is in quotes, so it is a name; expected a number";
   if (allow.empty && stands_for_nothing(text))
     return quote(text) + " is not a number; expected an empty cell where there is no value (muster import makes it so)";
+  if (stands_for_nothing(text)) return quote(text) + " is not a number; expected one, or the table without this row";
   return why_not_real(text);
 }
 

@@ -125,6 +125,17 @@ uint64_t positive_integer(const XmlAttribute& given) {
   return static_cast<uint64_t>(*value);
 }
 
+uint64_t ticks_in(const XmlAttribute& given, double dt) {
+  const auto seconds = parse_real(given.value);
+  if (!parse_integer(given.value) && seconds && *seconds > 0 && dt > 0) {
+    const double ticks = std::max(1.0, std::round(*seconds / dt));
+    throw invalid(given.value_place, "attribute " + quote(given.name) + ": " + why_not_integer(given.value) +
+                                         "; expected an integer from 1: it counts ticks of " + print_real(dt) + " s; " +
+                                         given.value + " s are " + given.name + "=\"" + print_real(ticks) + '"');
+  }
+  return positive_integer(given);
+}
+
 double real_of(const XmlAttribute& given, double least, const char* expected) {
   const auto value = parse_real(given.value);
   if (!value)

@@ -34,6 +34,8 @@ void check_name(const XmlAttribute& given);
 const XmlAttribute& needed(const XmlElement& element, const char* name, const char* expected);
 // An integer from 1. Throws Error.
 uint64_t positive_integer(const XmlAttribute& given);
+// A number of ticks of `dt`, as positive_integer(); of one in seconds the error says how many ticks they are.
+uint64_t ticks_in(const XmlAttribute& given, double dt);
 // Its number of seconds, at least `least`. Throws Error.
 double real_of(const XmlAttribute& given, double least, const char* expected);
 

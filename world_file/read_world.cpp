@@ -65,13 +65,13 @@ void read_root(const XmlElement& root, World& world) {
   world.ticks = ticks_of(real_of(*until, 0, "the end of the run in seconds, from 0"), world.dt, until->value_place);
 }
 
-RecordDeclaration read_record(const XmlElement& element) {
+RecordDeclaration read_record(const XmlElement& element, double dt) {
   RecordDeclaration result{
       needed(element, "table", "a table's name: set/row/quantity, or set/*/quantity for all rows").value, 1,
       element.place};
   for (const auto& given : element.attributes) {
     if (given.name == "every")
-      result.every = positive_integer(given);
+      result.every = ticks_in(given, dt);
     else if (given.name != "table")
       refuse_unknown(given, "record", {"table", "every"});
   }
@@ -208,7 +208,7 @@ void read_child(const XmlElement& element, const Standard& standard, World& worl
   } else if (element.name == "swap") {
     read_swap_element(element, world);
   } else if (element.name == "record") {
-    world.records.push_back(read_record(element));
+    world.records.push_back(read_record(element, world.dt));
     warn_of_long_wait(element, "is written at its start alone", world);
     warn_of_second_record(element, world);
   } else if (element.name.find('.') != std::string::npos) {

@@ -12,11 +12,12 @@
 #include "diagnosis/data/thresholds.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 
 namespace muster::diagnosis {
 namespace {
 
-constexpr double marks[] = {0, -128};  // dBm; of drivers, and of an 8-bit register, without a measurement
+constexpr double marks[] = {0, -127, -128};  // dBm; of drivers, and of 8-bit registers, without a measurement
 
 std::string row_text(std::size_t row) { return "row " + std::to_string(row + 1); }
 
@@ -75,9 +76,12 @@ void take_marks(Dataset& data) {
         nearest = std::min(nearest, std::abs(v - mark));
     }
     if (rows.empty() || nearest < thresholds::mark_apart) continue;
+    if (mark == -127 && rows.size() < 2) continue;  // one alone may be a fade
     for (const std::size_t row : rows) data.rssi[row] = std::nan("");
     data.marks.push_back(std::to_string(rows.size()) + " at " + print_real(mark) + " dBm");
-    const std::string why = nearest < 1e300 ? "; the nearest other level is " + print_real(nearest) + " dB away" : "";
+    const std::string why =
+        nearest < 1e300 ? "; the nearest other level is " + print_real(std::round(100 * nearest) / 100) + " dB away"
+                        : "";
     data.notes.push_back(data.marks.back() + ", first in " + row_text(rows[0]) +
                          ": taken as a mark for nothing received" + why);
   }
@@ -223,9 +227,12 @@ void check_units(const Dataset& data, const Factor& radio, const std::vector<Poi
     const auto [low, high] = std::minmax_element(sorted.begin(), far);
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::abs(values[k]) < std::abs(*far) || values[k] / 1000 < *low - 1 || values[k] / 1000 > *high + 1) continue;
-      throw invalid(at(data, rows[k], column), row_text(rows[k]) + ": " + print_real(values[k]) +
-                                                   " m, while half of the rows lie within " + print_real(usual) +
-                                                   " m; expected one unit in the whole column (millimetres here?)");
+      throw invalid(
+          at(data, rows[k], column),
+          row_text(rows[k]) + ": " + print_real(values[k]) + " m, while half of the rows lie within " +
+              print_real(usual) + " m; expected " +
+              (is_mark(values[k]) ? "a place in each row: where this is a mark for no value, the table without the row"
+                                  : "one unit in the whole column (millimetres here?)"));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "text/file_kind.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 #include "text/text_file.hpp"
 
 namespace muster::diagnosis {
@@ -312,6 +313,10 @@ bool ForeignTable::is_line_of_units() const {
 
 std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, const std::string& advice) const {
   std::string cell(text(row, column));
+  // A word such as Total below numbers, in whatever column.
+  if (row > 0 && row + 1 == rows() && is_summary(text(row, 0)) && parse_real(text(row - 1, 0)))
+    throw invalid(place(row), "the last line holds sums or means and no reading; expected it away: sed '" +
+                                  std::to_string(place(row).line) + "d' FILE");
   if (shape_.decimal_comma && cell.find('.') == cell.npos) std::replace(cell.begin(), cell.end(), ',', '.');
   if (cell.size() > 1 && cell[0] == '+') cell.erase(0, 1);  // as loggers print it
   if (const auto value = parse_real(cell)) return value;
@@ -319,6 +324,9 @@ std::optional<double> ForeignTable::number(std::size_t row, std::size_t column, 
   if (row == 0 && is_line_of_units())
     throw invalid(place(row), "the line holds units and no reading; expected it away: sed '" +
                                   std::to_string(place(row).line) + "d' FILE, and the units in the rules of the map");
+  if (cell == columns_[column])
+    throw invalid(place(row), "the line repeats the header, as in two logs joined; expected it away: sed '" +
+                                  std::to_string(place(row).line) + "d' FILE");
   throw invalid(place(row), "column " + quote(columns_[column]) + ": " + why_not_real(cell) + advice);
 }
 

@@ -6,6 +6,7 @@
 
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "text/table_doubts.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -99,7 +100,11 @@ RecordedTable read_recorded(const std::filesystem::path& file, const Table& of_w
     own.push_back(r);
   }
   std::vector<std::vector<double>> values;
-  for (const std::size_t column : found) values.push_back(text.reals(column, {.empty = true}));
+  for (const std::size_t column : found) {
+    values.push_back(text.reals(column, {.empty = true}));
+    if (const std::string doubt = mark_doubt(text, column, values.back()); !doubt.empty())
+      throw Error(Exit::invalid_input, doubt);
+  }
   if (const auto yaw = yaw_of(text, of_world)) turn_into_quaternions(*yaw, of_world, result, values);
   require_heading(text, result);
   if (const auto yaw = text.find("yaw"); yaw && text.columns()[*yaw].unit == "rad") {

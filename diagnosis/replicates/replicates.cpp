@@ -44,10 +44,12 @@ Replicates::Replicates(World world, Options options, std::string table, const st
   if (!options_.tables) options_.tables = std::make_shared<TableCache>();
   for (const auto& instance : at_start_->instances()) options_.libraries.push_back(instance->library());
   if (const double last = recorded_.last(); last > world_.until() + 1e-9 * world_.dt)
-    throw invalid({recorded_.file}, "goes on until t = " + print_real(last) + " s, and the run ends at " +
-                                        print_real(world_.until()) +
-                                        " s; expected times from the start of the run, or " + "until=\"" +
-                                        print_real(std::ceil(last)) + "\" in the world");
+    throw invalid(
+        {recorded_.file},
+        "goes on until t = " + print_real(last) + " s, and the run ends at " + print_real(world_.until()) +
+            " s; expected times from the start of the run, or " + "until=\"" + print_real(std::ceil(last)) +
+            "\" in the world" +
+            (last / 1000 <= 2 * world_.until() && last > 100 * world_.until() ? "; are these milliseconds?" : ""));
   world_.ticks = static_cast<uint64_t>(std::ceil(recorded_.last() / world_.dt - 1e-9));
   std::vector<Eigen::VectorXd> parts;
   for (const RecordedCourse& course : recorded_.courses) {

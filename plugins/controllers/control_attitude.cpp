@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <muster/plugin.hpp>
+#include <utility>
 
 #include "description/world_robots.hpp"
 #include "plugins/table_times.hpp"
@@ -49,13 +50,14 @@ struct ControlAttitude {
     const double tick = k.time() / static_cast<double>(k.tick());
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, that for most of it
     *k[command] = {0, 0, 0, 0};
+    if (k.tick() == 1) warn_of_units(k);
     double last = -std::numeric_limits<double>::infinity(), second = last, most = 0;  // s, s, N
     std::size_t number = 0, own = 0, first = 0;
     for (const Row& row : k[commands]) {
       ++number;
       if (!is_null(row.robot) && row.robot != k[robot]) continue;
       if (!(row.t > last))
-        throw BadInput(times.rows().at(number - 1) + "t does not rise: " + TableTimes::print(row.t) + " s after " +
+        throw BadInput(times.rows().at(number - 1, "t") + "t does not rise: " + TableTimes::print(row.t) + " s after " +
                        TableTimes::print(last) + " s; expected the rows of a robot in the order of time");
       last = row.t;
       if (++own == 1) first = number - 1;
@@ -72,19 +74,55 @@ struct ControlAttitude {
           "none is ever given");
   }
 
+  // Warns of the first tilt that is plainly in degrees, and of the first thrust that points down or is no newtons.
+  void warn_of_units(const Step& k) const {
+    constexpr double quarter_turn = 1.5708, degree = 0.017453292519943295;
+    bool is_tilted = false, is_odd = false;
+    for (std::size_t i = 0; i < k[commands].size() && !(is_tilted && is_odd); ++i) {
+      const Row& row = k[commands][i];
+      if (!is_null(row.robot) && row.robot != k[robot]) continue;
+      for (const auto& [name, angle] : {std::pair("cmd_roll", row.asked.roll), {"cmd_pitch", row.asked.pitch}}) {
+        if (!(std::abs(angle) > quarter_turn) || is_tilted) continue;
+        is_tilted = true;
+        k.event("warning: " + times.rows().at(i, name) + name + " is " + TableTimes::print(angle) +
+                " rad, on its head; are these degrees? " + TableTimes::print(angle) + " degrees are " +
+                TableTimes::print(std::round(angle * degree * 1e4) / 1e4) + " rad");
+      }
+      const double thrust = row.asked.thrust;
+      const std::string odd =
+          thrust < 0 ? "points down; is it negative upward, as in PX4? "
+          : thrust > most_weights * weight
+              ? "is " + TableTimes::print(std::round(thrust / weight)) + " times the robot's weight; " + meant(thrust)
+              : "";
+      if (odd.empty() || is_odd) continue;
+      is_odd = true;
+      k.event("warning: " + times.rows().at(i, "cmd_thrust") + "cmd_thrust of " + TableTimes::print(thrust) + " N " +
+              odd + "expected newtons, positive upward");
+    }
+  }
+
+  static std::string meant(double thrust) {
+    constexpr double least_pulse = 900, most_pulse = 2100;  // us, of radio control
+    return thrust >= least_pulse && thrust <= most_pulse
+               ? "are these pulses in microseconds, or grams? "
+               : "are these grams? " + TableTimes::print(thrust) + " g are " +
+                     TableTimes::print(std::round(thrust * gravity) / 1000) + " N; ";
+  }
+
   // `row` is the robot's first.
   void warn_of_little(const Step& k, double most, std::size_t row) const {
     const std::string share =
         most <= 1 ? "; is it a share of the largest thrust, from 0 to 1? multiply it by that" : "";
-    k.event("warning: " + times.rows().at(row) + "cmd_thrust is at most " + TableTimes::print(most) +
+    k.event("warning: " + times.rows().at(row, "cmd_thrust") + "cmd_thrust is at most " + TableTimes::print(most) +
             " N, and hovering takes " + TableTimes::print(std::round(100 * weight) / 100) + " N, so that robot '" +
             std::string(k.name("robot", static_cast<std::size_t>(k[robot]))) + "' never flies; expected newtons" +
             share);
   }
 
-  static constexpr double gravity = 9.81;  // m/s^2
-  static constexpr double little = 0.9;    // of the weight: a fall that a record may end with is no fault
-  double weight = 0;                       // N
+  static constexpr double gravity = 9.81;     // m/s^2
+  static constexpr double little = 0.9;       // of the weight: a fall that a record may end with is no fault
+  static constexpr double most_weights = 20;  // of a thrust; racing quadrotors reach 10
+  double weight = 0;                          // N
   Value robot;
   TableTimes times;
   In<Row> commands;

@@ -1,4 +1,5 @@
 // Plans a robot's way on a roadmap, follows it, and plans anew where its laser sees it blocked.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -110,6 +111,7 @@ struct ControlNavigate {
       robot = s.host()->row_name(s.host(), "robot", static_cast<uint32_t>(s.param("robot")));
     } else {
       rows = s.file<roadmap::Row>("roadmap");
+      road_rows.emplace(s, "roadmap");
     }
     if (s.text("goals").empty()) {
       goal = s.read<Goal2d>("robot/{robot}/goal2d");
@@ -172,7 +174,7 @@ struct ControlNavigate {
         map = roadmap::map_of(copy.data(), copy.size());
       }
     } catch (const std::runtime_error& e) {
-      throw BadInput(e.what());
+      throw BadInput(in_file(e.what()));
     }
     if (!levels || rssi) return true;
     rssi = RssiMap(k[*levels]);
@@ -180,6 +182,26 @@ struct ControlNavigate {
       throw BadInput("the table of rssi has no value in a column " + station +
                      "[dBm]; expected that of muster map --from " + station);
     return true;
+  }
+
+  // "roadmap.csv:3:1: the piece has no length" of "row 2 of the roadmap has no length", where it is a file.
+  std::string in_file(const std::string& what) const {
+    const std::string begin = "row ", end = " of the roadmap ";
+    const auto at = what.find(end);
+    if (!road_rows || what.rfind(begin, 0) != 0 || at == what.npos) return what;
+    std::size_t row = 1;
+    std::from_chars(what.data() + begin.size(), what.data() + at, row);
+    return road_rows->at(row - 1) + "the row " + what.substr(at + end.size());
+  }
+
+  // At the first plan: a roadmap that lies elsewhere than the robot.
+  void look_at_roadmap(const Step& k, const Point& start) const {
+    constexpr double far_off = 100;  // m
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Point& p : map->graph.nodes) nearest = std::min(nearest, std::hypot(p.x - start.x, p.y - start.y));
+    if (!road_rows || map->graph.nodes.empty() || nearest < far_off) return;
+    k.event("warning: " + road_rows->at(0) + "the roadmap begins " + metres(nearest) +
+            " m from the robot; expected metres of the plan; are these centimetres?");
   }
 
   void navigate(const Step& k, Memory& m) const {
@@ -274,6 +296,7 @@ struct ControlNavigate {
     for (const Point& p : found.points) m.way.push_back({p.x, p.y});
     m.now.status = m.way.size() < 2 ? no_way : on_its_way;
     if (m.now.plans == 1 && goals) look_at_goals(k);
+    if (m.now.plans == 1) look_at_roadmap(k, start);
     if (m.now.status == no_way && (!was_without || is_news))
       k.event((m.seen.size() > 0 ? "" : "warning: " + place_of_goal(m)) + why + "no way to " + place_text(to) + ": " +
               found.fault +
@@ -347,7 +370,7 @@ struct ControlNavigate {
   std::optional<In<roadmap::Row>> rows;
   std::optional<In<Goal2d>> goal;
   std::optional<In<Waypoint>> goals;
-  std::optional<TableRows> goal_rows;
+  std::optional<TableRows> goal_rows, road_rows;
   std::optional<In<Scan>> scan;
   std::optional<In<RssiPlace>> levels;
   std::string robot, station;

@@ -3,7 +3,7 @@
 #include <muster/plugin.hpp>
 #include <string>
 
-#include "plugins/table_rows.hpp"
+#include "plugins/table_times.hpp"
 #include "robot_model.hpp"
 #include "timed_path.hpp"
 
@@ -51,7 +51,7 @@ struct ControlPath3d {
         lead(s.value("lead")),
         heading(s.value("heading")),
         heading_gain(s.value("heading_gain")),
-        rows(s, "path"),
+        times(s, "path"),
         path(s.file<WayPoint3d>("path")),
         seen(s.read<Position3d>("robot/{robot}/position3d")),
         asked(s.write<Velocity3d>("robot/{robot}/velocity3d")) {
@@ -63,7 +63,10 @@ struct ControlPath3d {
   }
 
   void step(const Step& k) const {
-    if (k.tick() == 1) warn_of_depth(k);
+    if (k.tick() == 1) {
+      warn_of_depth(k);
+      warn_of_distance(k);
+    }
     const auto way = [&](double t) {
       return timed_path(k[path], t - k[start], k[speed], k[acceleration], k[wait], k[loop] != 0);
     };
@@ -93,13 +96,26 @@ struct ControlPath3d {
     if (below == 0) return;
     char z[64];
     std::snprintf(z, sizeof z, "z = %.6g m", k[path][first].z);
-    k.event("warning: " + rows.at(first) + z + " is below the ground" +
+    k.event("warning: " + times.rows().at(first, "z") + z + " is below the ground" +
             (below > 1 ? ", in " + std::to_string(below) + " way points" : "") +
             "; is z down here, as in PX4 (NED)? expected metres up, and x east, y north");
   }
 
+  // The first way point that is far away and out of reach in the run.
+  void warn_of_distance(const Step& k) const {
+    constexpr double far_off = 100, surely = 10;  // m; times the way in the run
+    for (std::size_t i = 0; i < k[path].size(); ++i) {
+      const WayPoint3d& p = k[path][i];
+      const double away = std::hypot(p.x - k[seen]->x, p.y - k[seen]->y, p.z - k[seen]->z);
+      if (!(times.until() > 0) || away < far_off || away < surely * times.until() * (k[speed] + k[catch_up])) continue;
+      return k.event("warning: " + times.rows().at(i) + "a way point " + TableTimes::print(std::round(away)) +
+                     " m away, where the robot does not come in the run of " + TableTimes::print(times.until()) +
+                     " s; are these millimetres? expected metres");
+    }
+  }
+
   Value start, speed, acceleration, wait, loop, gain, catch_up, lead, heading, heading_gain;
-  TableRows rows;
+  TableTimes times;
   In<WayPoint3d> path;
   In<Position3d> seen;
   Out<Velocity3d> asked;

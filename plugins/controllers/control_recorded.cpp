@@ -48,7 +48,8 @@ struct ControlRecorded {
       if (static_cast<std::size_t>(rows[i].robot) != robot) continue;
       if (samples.empty()) first = i;
       if (!samples.empty() && !(rows[i].t > samples.back().t))
-        throw BadInput(times.rows().at(i) + "time does not rise");
+        throw BadInput(times.rows().at(i, "t") + "time does not rise: " + TableTimes::print(rows[i].t) + " s after " +
+                       TableTimes::print(samples.back().t) + " s; expected the rows of a robot in the order of time");
       samples.push_back({rows[i].t, {rows[i].v, rows[i].w}});
     }
     const std::string name(k.name("robot", robot));

@@ -53,7 +53,7 @@ struct PhysicsReplay {
     std::vector<Measured> last(courses.size());
     std::vector<std::size_t> first(courses.size());  // row
     std::vector<double> second(courses.size());      // [s]
-    bool is_doubted = false, is_jumping = false;     // told once
+    bool is_jumping = false;                         // told once
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Measured& m = rows[i];
       const auto robot = static_cast<std::size_t>(m.robot);
@@ -70,18 +70,13 @@ struct PhysicsReplay {
       if (course.has_height == is_null(m.z)) fail("z is given in some rows only");
       const auto turn = turn_of(m);
       if (!turn) fail(why_no_turn(m).c_str());
-      if (is_null(m.qw) && std::abs(m.yaw) > whole_turn && !is_doubted) {
-        is_doubted = true;
-        warn(print(m.yaw) + " rad is more than a full turn; are these degrees? " + print(m.yaw) + " degrees are " +
-             print(m.yaw * 0.017453292519943295) + " rad");
-      }
       if (const double jump = std::hypot(m.x - last[robot].x, m.y - last[robot].y), time = m.t - last[robot].t;
           !course.track.empty() && time > 0 && jump > fastest * time && !is_jumping) {
         is_jumping = true;
         warn("it moves by " + print(jump) + " m in " + print(time) + " s");
       }
       last[robot] = m;
-      if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) fail("time does not rise");
+      if (!course.track.append({m.t, {m.x, m.y, course.has_height ? m.z : 0}, *turn})) refuse_time(k, i, rows);
     }
     for (std::size_t i = 0; i < courses.size(); ++i) {
       if (!courses[i].track.empty())
@@ -91,8 +86,16 @@ struct PhysicsReplay {
     is_read = true;
   }
 
-  static constexpr double whole_turn = 6.3;  // rad, and a little
-  static constexpr double fastest = 200;     // m/s; no robot is
+  [[noreturn]] void refuse_time(const Step& k, std::size_t row, Rows<const Measured> rows) const {
+    std::size_t before = row - 1;
+    while (rows[before].robot != rows[row].robot) --before;
+    throw BadInput(times.rows().at(row, "t") + "robot '" +
+                   std::string(k.name("robot", static_cast<std::size_t>(rows[row].robot))) +
+                   "': time does not rise: " + print(rows[row].t) + " s after " + print(rows[before].t) +
+                   " s; expected its rows in the order of time, each once");
+  }
+
+  static constexpr double fastest = 200;  // m/s; no robot is
 
   static std::string print(double value) {
     char text[32];

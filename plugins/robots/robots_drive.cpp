@@ -161,7 +161,8 @@ struct RobotsDrive {
 
   static std::string wheels_in_words(const description::Robot& robot) {
     const std::string wheels = description::wheels_that_stand(robot);
-    return wheels.empty() ? "; expected " : ": " + wheels + "; expected type=\"continuous\" of wheels, and ";
+    return wheels.empty() ? "; expected "
+                          : ": " + wheels + "; expected type=\"continuous\" of them, which makes them its drive, or ";
   }
 
   void turn(const Step& k, std::size_t i, const Command& asked, const description::DifferentialDrive& motors) const {

@@ -71,8 +71,10 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
       if (to == at) refuse("is where the message is for; expected a radio that still has to send it");
       const auto [known, is_new] = protocol.ways.emplace(std::pair(at, to), next);
       if (!is_new)
-        refuse("has a row for " + (to == everyone ? "all others" : name(k, to)) + " already, by " +
-               name(k, known->second) + "; expected one row, by " + name(k, known->second) + " or by " + name(k, next));
+        refuse(known->second == next ? "has this row already; expected it once"
+                                     : "has a row for " + (to == everyone ? "all others" : name(k, to)) +
+                                           " already, by " + name(k, known->second) + "; expected one row, by " +
+                                           name(k, known->second) + " or by " + name(k, next));
     }
     if (k.tick() <= 1) look_for_loops(k);
   }

@@ -12,6 +12,7 @@
 #include "bearer.hpp"
 #include "obstructions.hpp"
 #include "plugins/periods.hpp"
+#include "plugins/table_rows.hpp"
 #include "turn.hpp"
 
 namespace {
@@ -81,10 +82,13 @@ their geometry, multipath, the time to a first fix, velocities by Doppler.)";
         obstructions(s),
         reading(s.write<Gps>(bearer.table("gps"), MUSTER_SENSED | bearer.flags())),
         errors(s.write<Errors>(bearer.table("gps_errors"), bearer.flags())) {
-    if (!s.text("areas").empty()) areas = s.file<Area>("areas");
+    if (s.text("areas").empty()) return;
+    areas = s.file<Area>("areas");
+    places.emplace(s, "areas");
   }
 
   void step(const Step& k) const {
+    if (k.tick() == 0 && areas) warn_of_areas(k);
     const bool is_told = k.tick() == 0 || k[rate] <= 0 || is_due(k.time(), k.dt(), 1 / k[rate]);
     std::optional<Obstructions::Now> sky;
     if (is_told && k[least_sky] > 0) sky.emplace(obstructions, k);
@@ -98,6 +102,23 @@ their geometry, multipath, the time to a first fix, velocities by Doppler.)";
   }
 
  private:
+  // Areas without extent, in which no robot is, and such as are meant in degrees.
+  void warn_of_areas(const Step& k) const {
+    constexpr double little = 0.5;  // m; a thousandth of a degree is 100 m
+    for (std::size_t i = 0; i < k[*areas].size(); ++i) {
+      const Area& a = k[*areas][i];
+      const double width = std::abs(a.x1 - a.x0), height = std::abs(a.y1 - a.y0);
+      if (width == 0 || height == 0)
+        return k.event("warning: " + places->at(i, width == 0 ? "x1" : "y1") + "the area has no " +
+                       (width == 0 ? "width: x1 is x0" : "height: y1 is y0") +
+                       ", so that no robot is in it; expected two corners");
+      if (std::max(width, height) < little && std::max(std::abs(a.x0), std::abs(a.y0)) > 10 * little)
+        return k.event("warning: " + places->at(i, "x0") + "the area is less than " +
+                       (std::max(width, height) < 0.1 ? "0.1" : "0.5") +
+                       " m wide; are these latitude and longitude? expected metres of the plan, x east and y north");
+    }
+  }
+
   static Gps nothing(double t) { return {t, null(), null(), null(), null(), null(), null()}; }
 
   Errors gone_on(const Step& k, std::size_t robot, const Errors* before) const {
@@ -165,6 +186,7 @@ their geometry, multipath, the time to a first fix, velocities by Doppler.)";
   Out<Gps> reading;
   Out<Errors> errors;
   std::optional<In<Area>> areas;
+  std::optional<TableRows> places;  // of them
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "fan.hpp"
 #include "plugins/periods.hpp"
 #include "plugins/scene_rows.hpp"
+#include "plugins/table_rows.hpp"
 #include "robot_solids.hpp"
 #include "scene/slabs.hpp"
 #include "sweep.hpp"
@@ -80,21 +81,23 @@ struct SensorsLaser {
         state(s.read<DoorState>("door/*/state")),
         scan(s.write<Scan>("scan/*/message", MUSTER_SENSED)),
         model(s.write<description::Model>("robot/*/laser_model")) {
-    if (!s.text("biases").empty()) biases = s.file<RangeBias>("biases");
+    if (!s.text("biases").empty()) {
+      biases = s.file<RangeBias>("biases");
+      places.emplace(s, "biases");
+    }
     if (s.param("sweep") > 0) sweeps = s.write<Sweeps>("robot/*/laser_sweeps");
     for (std::size_t row = 1; row <= robots.size(); ++row) {
       const auto* robot = robots.of(static_cast<double>(row));
       if (robot) solids.emplace(robot, solids_of(*robot));
     }
+    for (const auto& [robot, shapes] : solids)
+      for (const auto& sensor : robot->sensors) reach = std::max(reach, sensor.laser.max_range);
     warn_of_none(s);
     warn_of_noise(s);
   }
 
   // A deviation in millimetres: readings would be noise alone.
   void warn_of_noise(const Setup& s) const {
-    double reach = 0;
-    for (const auto& [robot, shapes] : solids)
-      for (const auto& sensor : robot->sensors) reach = std::max(reach, sensor.laser.max_range);
     const double given = s.param("noise");
     if (reach > 0 && given > reach)
       s.warn("self", "attribute \"noise\": " + in_words(given) + " m is more than the laser's range of " +
@@ -313,10 +316,16 @@ struct SensorsLaser {
     const auto rows = k[*biases];
     for (std::size_t i = 1; i < rows.size(); ++i) {
       if (!(rows[i].range > rows[i - 1].range))
-        throw BadInput("attribute \"biases\": the ranges of the table do not rise at its row " + std::to_string(i + 1) +
-                       "; expected each above the one before");
+        throw BadInput(places->at(i, "range") + "the range does not rise: " + in_words(rows[i].range) + " m after " +
+                       in_words(rows[i - 1].range) + " m; expected each above the one before");
     }
+    if (k.tick() == 0 && reach > 0 && !rows.empty() && rows[rows.size() - 1].range > beyond * reach)
+      k.event("warning: " + places->at(rows.size() - 1, "range") + "a range of " +
+              in_words(rows[rows.size() - 1].range) + " m, and no laser here reaches further than " + in_words(reach) +
+              " m; expected metres; are these millimetres?");
   }
+
+  static constexpr double beyond = 3;  // times the reach of a laser, up to which a calibration may go
 
   double bias_at(const Step& k, double range) const {
     if (!biases || k[*biases].empty()) return 0;
@@ -358,6 +367,8 @@ struct SensorsLaser {
   In<Door> door;
   In<DoorState> state;
   std::optional<In<RangeBias>> biases;
+  std::optional<TableRows> places;    // of them
+  double reach = 0;                   // of the lasers [m]
   std::optional<Out<Sweeps>> sweeps;  // of scans that take their time
   Out<Scan> scan;
   Out<description::Model> model;

@@ -1,6 +1,7 @@
 // Distances between radios by time of flight, as ultra-wideband radios measure them.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <muster/names.hpp>
 #include <muster/plugin.hpp>
@@ -131,10 +132,27 @@ air, the time that a measurement takes.)";
     for (std::size_t i = 0; i < k[*biases].size(); ++i) {
       const PairBias& row = k[*biases][i];
       const auto pair = pair_of(static_cast<std::size_t>(row.a), static_cast<std::size_t>(row.b));
+      if (row.a == row.b) refuse_itself(k, i);
+      if (std::abs(row.bias) > usual_bias && k.tick() == 0) warn_of_bias(k, i);
       if (!result.emplace(pair, row.bias).second) refuse_second(k, i);
     }
     return result;
   }
+
+  [[noreturn]] void refuse_itself(const Step& k, std::size_t i) const {
+    const std::string name(k.name("radio", static_cast<std::size_t>(k[*biases][i].a)));
+    throw BadInput(places->at(i, "b") + name + " measures no range to itself; expected another radio than in column a");
+  }
+
+  void warn_of_bias(const Step& k, std::size_t i) const {
+    char text[160];
+    const double metres = k[*biases][i].bias;
+    std::snprintf(text, sizeof text, "a bias of %.6g m; is this millimetres? %.6g mm are %.6g m", metres, metres,
+                  metres / 1000);
+    k.event("warning: " + places->at(i, "bias") + text);
+  }
+
+  static constexpr double usual_bias = 10;  // m; those of ultra-wideband are less than one
 
   // A pair that has a row already, in this order or the other.
   [[noreturn]] void refuse_second(const Step& k, std::size_t second) const {

@@ -1,6 +1,7 @@
 // One robot of a team that follows a target and keeps its link to a base: after Ghaffarkhah and Mostofi 2009.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <muster/plugin.hpp>
 #include <vector>
 
@@ -95,18 +96,36 @@ struct ControlTrack {
     expect_another_radio(s, "base", radio, "the robot's own radio");
   }
 
-  // Obstacles are discs: one of a negative radius would let the robot through.
-  void check_discs(const Step& k) const {
-    for (std::size_t i = 0; i < k[discs].size(); ++i)
-      if (!(k[discs][i].radius >= 0))
-        throw BadInput(rows.at(i) + "the radius is negative; expected a number from 0, in m");
+  // Warns of the first obstacle around the robot itself, and of the first that lies beyond the room.
+  void check_discs(const Step& k, Vector2 here) const {
+    bool is_around = false, is_beyond = false;
+    for (std::size_t i = 0; i < k[discs].size(); ++i) {
+      const Disc& d = k[discs][i];
+      if (const double away = std::hypot(here.x - d.x, here.y - d.y); away < d.radius && !is_around) {
+        is_around = true;
+        k.event("warning: " + rows.at(i, "radius") + "column \"radius[m]\": " + print(d.radius) +
+                " m, and the robot starts " + print(away) + " m from its middle, inside the obstacle; expected metres" +
+                (away > d.radius / 100 ? "; are these centimetres?" : ""));
+      }
+      if (const double away = std::hypot(k[room_x] - d.x, k[room_y] - d.y); away - d.radius > k[room] && !is_beyond) {
+        is_beyond = true;
+        k.event("warning: " + rows.at(i, "x") + "the obstacle lies beyond the room, which ends " + print(k[room]) +
+                " m from its middle, so that it has no effect; expected metres" +
+                (away / 1000 < k[room] ? "; are these millimetres?" : ", or a larger room"));
+      }
+    }
+  }
+
+  static std::string print(double value) {
+    char text[32];
+    return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.4g", value))};
   }
 
   void step(const Step& k) const {
     State now = *k.last(state);
     const Vector2 here{k[odometry]->x, k[odometry]->y};
     const double from_base = std::hypot(here.x - k[base_x], here.y - k[base_y]);
-    if (k.tick() == 1) check_discs(k);
+    if (k.tick() == 1) check_discs(k, here);
     listen(k, now);
     now.reach = k[aware] != 0 ? reach(k, now, from_base) : null();
     const Sighting& seen = *k[sighting];

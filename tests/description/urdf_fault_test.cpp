@@ -198,7 +198,8 @@ const Case cases[] = {
      "4: joint 'j': type 'revolut' is not known; expected fixed, revolute, continuous, prismatic, floating or planar; "
      "did you mean "
      "'revolute'?"},
-    {"same_link_twice", link("a", mass) + link("a", mass), "3: link 'a' is there twice; first in line 2"},
+    {"same_link_twice", link("a", mass) + link("a", mass),
+     "3: link 'a' is there twice; first in line 2; expected another name for one of them"},
     {"unknown_element", "<lnk name='a'/>", "2: <lnk> is not known in <robot>; did you mean 'link'?"},
     {"unit_beside_mass", link("a", "<inertial>\n<mass value='0.4' unit='kg'/></inertial>"),
      "3: <mass> has no attribute 'unit'; expected 'value'"},

@@ -23,6 +23,8 @@ TEST(SweepRefusals, TellThePlaceInTheFile) {
       {head + "<vary set=\"radio.multiwall/n\" values=\"1.5:0.5:3\"/></sweep>",
        "plan.xml:2:39: values: \"1.5:0.5:3\" is a range, and values are a list with blanks between them; expected "
        "values=\"1.5 2 2.5 3\""},
+      {head + "<vary set=\"radio.multiwall/n\" values=\"1.5;2;2.5\"/></sweep>",
+       "plan.xml:2:39: values: \"1.5;2;2.5\" has semicolons between values; expected blanks: values=\"1.5 2 2.5\""},
       {head + "<vary set=\"seed\" values=\"2\"/></sweep>",
        "plan.xml:2:12: \"seed\" is no parameter; expected seeds= of <sweep>"},
       {head + "<vary instance=\"fysics\" plugins=\"physics.planar\"/></sweep>",

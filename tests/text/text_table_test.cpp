@@ -150,7 +150,7 @@ TEST_F(Table, RefusesRaggedRows) {
             "header of names, and ',' between cells");
   EXPECT_EQ(error_in("sep=,\na,b\n1,2\n"),
             "d.csv:1:1: \"sep=\" is a spreadsheet's line, and no header: delete this line");
-  EXPECT_EQ(error_in("a,b\n1,2\n\n"), "d.csv:3:1: the line is empty; expected a row");
+  EXPECT_EQ(error_in("a,b\n1,2\n\n"), "d.csv:3:1: the file ends in an empty line; expected none below the last row");
   EXPECT_EQ(error_in("a,b\r\n\r\n1,2\r\n"), "d.csv:2:1: the line is empty; expected a row");
   EXPECT_EQ(error_in("a,b\n" + std::string(70'000, 'x') + ",1\n"),
             "d.csv:2:1: the row is too long; expected at most 65535 bytes");
@@ -165,9 +165,8 @@ TEST_F(Table, RefusesBrokenCells) {
   EXPECT_EQ(
       error_in(std::string_view("a,b\n1,\0\n", 8)),
       R"(d.csv:2:3: the control character "\x00" is not allowed: the file is damaged, or no text; expected CSV in UTF-8)");
-  EXPECT_EQ(
-      error_in("# my log\na,b\n1,2\n"),
-      R"(d.csv:1:1: the first line is "# my log" and no header; expected one there, such as t[s],tx,rx,rssi[dBm])");
+  EXPECT_EQ(error_in("my log\na,b\n1,2\n"),
+            R"(d.csv:1:1: the first line is "my log" and no header; expected one there, such as t[s],tx,rx,rssi[dBm])");
   EXPECT_EQ(error_in("\na,b\n1,2\n"),
             "d.csv:1:1: the first line is empty and no header; expected one there, such as t[s],tx,rx,rssi[dBm]");
   EXPECT_EQ(error_in("1,2\n3,4\n"),
@@ -188,7 +187,7 @@ TEST_F(Table, RefusesWhatIsNoNumber) {
   EXPECT_EQ(
       in_rssi("2024-05-03T12:00:00"),
       place + "\"2024-05-03T12:00:00\" is not a number, but a date; expected seconds (muster import reads dates)");
-  EXPECT_EQ(in_rssi("nan"), place + "\"nan\" is not a number; it must be finite");
+  EXPECT_EQ(in_rssi("nan"), place + "\"nan\" is not a number; expected one, or the table without this row");
   EXPECT_EQ(in_rssi("inf"), place + "\"inf\" is not a number; it must be finite");
   EXPECT_EQ(in_rssi(" 1"), place + "\" 1\" is not a number; it has spaces in it or around it");
   EXPECT_EQ(in_rssi("1e400"), place + "\"1e400\" is out of range");
@@ -203,6 +202,36 @@ TEST_F(Table, RefusesWhatIsNoNumber) {
 TEST_F(Table, RefusesAQuotedNumberWithAReason) {
   EXPECT_EQ(error_in_reals("a,b\n1,\"7\"\n", 1),
             "d.csv:2:3: column \"b\": \"7\" is in quotes, so it is a name; expected a number");
+}
+
+TEST_F(Table, HeadersInOtherNotationsAreToldAsTheyAreWritten) {
+  EXPECT_EQ(error([&] { read("x (m),y\n1,2\n").require("x", "m"); }),
+            "d.csv:1:1: column \"x (m)\" is called otherwise here; expected \"x[m]\"");
+  EXPECT_EQ(error([&] { read("t,RSSI_dbm\n1,2\n").require("rssi", "dBm"); }),
+            "d.csv:1:3: column \"RSSI_dbm\" is called otherwise here; expected \"rssi[dBm]\"");
+  EXPECT_EQ(error([&] { read("x_ft,y\n1,2\n").require("x", "m"); }),
+            "d.csv:1:1: column \"x_ft\" is called otherwise here; expected \"x[m]\": 1 ft is 0.3048 m");
+  EXPECT_EQ(error([&] { read("x[ft],y\n1,2\n").require("x", "m"); }),
+            "d.csv:1:1: column \"x[ft]\" has the wrong unit; expected \"x[m]\": 1 ft is 0.3048 m");
+}
+
+TEST_F(Table, LinesThatAreNoRowsAreToldForWhatTheyAre) {
+  EXPECT_EQ(error([&] { read("# way points\na,b\n1,2\n"); }),
+            "d.csv:1:1: the line is a comment, and tables have none; expected the header: grep -v '^[#%]' FILE leaves "
+            "comments out");
+  EXPECT_EQ(error([&] { read("a,b\n1,2\n% more\n3,4\n"); }),
+            "d.csv:3:1: the line is a comment, and tables have none; expected a row: grep -v '^[#%]' FILE leaves "
+            "comments out");
+  EXPECT_EQ(error([&] { read("a,b\n1,2\n\n\n"); }),
+            "d.csv:3:1: the file ends in an empty line; expected none below the last row");
+  EXPECT_EQ(error([&] { read("a,b\n\n1,2\n"); }), "d.csv:2:1: the line is empty; expected a row");
+  const std::string sum = "; a last row of sums or means? expected the table without it";
+  EXPECT_EQ(error_in_reals("a,b\n1,2\nTotal,2\n", 0), "d.csv:3:1: column \"a\": \"Total\" is not a number" + sum);
+  EXPECT_EQ(error_in_reals("a,b\nmean,2\n1,2\n", 0), "d.csv:2:1: column \"a\": \"mean\" is not a number");
+  EXPECT_EQ(error([&] { read("a,b,c\n1,2,3\nSum,6\n"); }),
+            "d.csv:3:1: the row has 2 cells; expected 3, with ',' between them and '.' in numbers" + sum);
+  EXPECT_EQ(error_in_reals("a,b\n1,nan\n", 1),
+            "d.csv:2:3: column \"b\": \"nan\" is not a number; expected one, or the table without this row");
 }
 
 TEST_F(Table, OfAnotherTableTheWholeHeaderIsNamed) {

@@ -77,8 +77,10 @@ TEST_F(Xml, RefusesWrongEncodings) {
       "; is it Latin-1, as editors of Windows write? expected UTF-8: iconv -f ISO-8859-1 -t UTF-8 w.xml > NEW";
   EXPECT_EQ(error(""), "w.xml: is empty; expected an XML element");
   EXPECT_EQ(error("\xEF\xBB\xBF"), "w.xml: is empty; expected an XML element");
-  EXPECT_EQ(error(std::string_view("\xFF\xFE<\0w\0", 6)), "w.xml: is UTF-16; expected UTF-8");
-  EXPECT_EQ(error(std::string_view("\xFE\xFF\0<", 4)), "w.xml: is UTF-16; expected UTF-8");
+  EXPECT_EQ(error(std::string_view("\xFF\xFE<\0w\0", 6)),
+            "w.xml: is UTF-16; expected UTF-8: iconv -f UTF-16 -t UTF-8 w.xml > NEW");
+  EXPECT_EQ(error(std::string_view("\xFE\xFF\0<", 4)),
+            "w.xml: is UTF-16; expected UTF-8: iconv -f UTF-16 -t UTF-8 w.xml > NEW");
   EXPECT_EQ(error(std::string_view("<\0w\0", 4)), R"(w.xml:1:2: the control character "\x00" is not allowed)");
   EXPECT_EQ(error("<w a='\x01'/>"), R"(w.xml:1:7: the control character "\x01" is not allowed)");
   EXPECT_EQ(error("\x1F\x8B\x08"), "w.xml: is compressed by gzip; expected plain text");

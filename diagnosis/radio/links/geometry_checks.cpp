@@ -249,6 +249,8 @@ std::string meant_radio(const std::string& name, const std::vector<std::string>&
   };
   for (const std::string& each : silent)
     if (plain(each) == plain(name)) return each;
+  for (const std::string& each : silent)  // a frame of ROS: "/base/radio"
+    if (name.starts_with('/') && ('/' + plain(name) + '/').find('/' + plain(each) + '/') != name.npos) return each;
   return nearest(name, silent);
 }
 

@@ -56,7 +56,8 @@ TEST(Fault2, BrokenXmlIsRefusedWithItsPlace) {
       "<world name=\"\xff\" dt=\"0.1\" until=\"1\"/>",
       "world.xml:1:14: byte 14 of the file, 0xff, is not valid UTF-8; is it Latin-1, as editors of Windows "
       "write? expected UTF-8: iconv -f ISO-8859-1 -t UTF-8 world.xml > NEW");
-  folder.expect_refused(std::string("\xff\xfe<\0w\0", 6), "world.xml: is UTF-16; expected UTF-8");
+  folder.expect_refused(std::string("\xff\xfe<\0w\0", 6),
+                        "world.xml: is UTF-16; expected UTF-8: iconv -f UTF-16 -t UTF-8 world.xml > NEW");
 }
 
 TEST(Fault2, AByteOrderMarkIsFine) {

@@ -197,6 +197,13 @@ TEST(Habits, AnImportHasNoFunctionsButSaysTheFactor) {
   expect_error(import("0.0175*heading_deg"), 2,
                "log.csv:2: the line holds units and no reading; expected it away: sed '2d' FILE, and the units in the "
                "rules of the map");
+  folder.write("log.csv", "t,heading_deg,rssi\n1,90,-50\nt,heading_deg,rssi\n2,90,-50\n");
+  expect_error(import("0.0175*heading_deg"), 2,
+               "log.csv:3: the line repeats the header, as in two logs joined; expected it away: sed "
+               "'3d' FILE");
+  folder.write("log.csv", "t,heading_deg,rssi\n1,90,-50\nTotal,90,-50\n");
+  expect_error(import("0.0175*heading_deg"), 2,
+               "log.csv:3: the last line holds sums or means and no reading; expected it away: sed '3d' FILE");
 }
 
 TEST(Habits, AMapSaysWhereItIsAndRefusesCornersOutOfOrder) {

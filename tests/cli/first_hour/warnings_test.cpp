@@ -65,11 +65,35 @@ TEST(FirstHour, WhatNeverComesToStep) {
   EXPECT_EQ(warnings_of(rover + "<physics.simbody/>\n<record table=\"robot/*/pose\" every=\"10\"/>"), "");
 }
 
+TEST(FirstHour, AHeadingAsTheThirdNumberOfAPlace) {
+  EXPECT_THAT(warnings_of("<robot name=\"rover\" at=\"1 2 1.57\"/><physics.simbody/>"),
+              testing::HasSubstr("; is the third number a heading? at=\"1 2 0\" heading=\"1.57\"\n"));
+}
+
+TEST(FirstHour, SecondsForTicksAndNamesForChoices) {
+  const ProgramFolder folder;
+  const auto refused = [&](const std::string& elements, const std::string& message) {
+    folder.write("world.xml", "<world name=\"w\" dt=\"0.05\" until=\"1\"><station name=\"base\" at=\"5 0 1\"/>" +
+                                  elements + "</world>");
+    EXPECT_THAT(folder.muster({"check", "world.xml"}).err, testing::HasSubstr(message));
+  };
+  refused("<record table=\"robot/*/pose\" every=\"0.1\"/>",
+          "expected an integer from 1: it counts ticks of 0.05 s; 0.1 s are every=\"2\"\n");
+  const std::string made = "<robot name=\"rover\" at=\"0 0 0\"/><physics.planar/>";
+  refused(made + "<sensors.range robot=\"rover\" to=\"base\"/>",
+          "\"base\" is not a choice, but a radio; expected one of stations, robots, all, or peers=\"base\" in its "
+          "place\n");
+  refused(made + "<control.car robot=\"rover\"/>",
+          "or, in the place of control.car, a controller that finds its own way, such as <control.waypoint "
+          "robot=\"...\" path=\"FILE.csv\"/>\n");
+}
+
 TEST(FirstHour, ASwapForAnotherKindOfPlugin) {
   EXPECT_EQ(warnings_of(rover + "<physics.planar name=\"physics\"/><radio.multiwall/>\n" +
                         "<swap at=\"0.5\" instance=\"physics\" plugin=\"radio.multiwall\"/>"),
             "warning: world.xml:4:1: the swap puts radio.multiwall/2, of the phase RADIO, in the place of "
-            "physics.planar/1, of PHYSICS, whose work nobody does then; expected a plugin of PHYSICS\n");
+            "physics.planar/1, of PHYSICS, whose work nobody does then; expected a plugin of PHYSICS, or instance "
+            "\"radio.multiwall\" to be swapped, radio.multiwall/2 of RADIO\n");
 }
 
 TEST(FirstHour, WallsThatThePhysicsDrivesThrough) {

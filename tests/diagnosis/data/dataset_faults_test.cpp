@@ -136,6 +136,15 @@ TEST(DatasetFaults, ALevelAmongOthersIsNoMark) {
   EXPECT_TRUE(strong.notes.empty());
 }
 
+// The least of a byte but one is a mark only where it comes again: one alone may be a fade.
+TEST(DatasetFaults, ALevelOf127IsAMarkWhereItComesAgain) {
+  EXPECT_THAT(
+      with_levels({"-50", "-127", "-61.5", "-127"}).notes,
+      testing::Contains(testing::HasSubstr("2 at -127 dBm, first in row 2: taken as a mark for nothing received")));
+  EXPECT_THAT(with_levels({"-50", "-127", "-61.5", "-70"}).notes,
+              testing::Not(testing::Contains(testing::HasSubstr("a mark for nothing received"))));
+}
+
 // 128 dB is an ordinary loss.
 TEST(DatasetFaults, APathLossOf128IsNoMark) {
   const Scratch scratch;

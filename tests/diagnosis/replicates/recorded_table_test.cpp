@@ -70,6 +70,8 @@ TEST_F(Recorded, FaultsHaveTheirPlace) {
   EXPECT_THAT(refused("t[s],robot,x[m]\n0,rover,1\n"), HasSubstr("\"rover\" has one sample; expected two or more"));
   EXPECT_THAT(refused("t[s],robot,x[m],y[m]\n0,rover,1,1\n1,rover,1,1\n"),
               HasSubstr("log.csv:1:12: has x and y without the heading"));
+  EXPECT_THAT(refused("t[s],robot,x[m]\n0,rover,1\n1,rover,-999\n"),
+              HasSubstr("log.csv:3:9: column \"x[m]\": -999 lies far from all others, 1: is it a mark for no value?"));
   EXPECT_THAT(refused("t[s],robot,x[mm]\n0,rover,1\n1,rover,1\n"), HasSubstr("x[m]"));
 }
 

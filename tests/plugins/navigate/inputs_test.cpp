@@ -95,6 +95,15 @@ std::string refusal(const std::string& attributes, const std::map<std::string, s
   return "";
 }
 
+TEST(NavigateInputs, ARoadmapElsewhereIsToldOf) {
+  const Folder folder;
+  folder.write("way.csv", "x0[m],y0[m],x1[m],y1[m]\n200,100,300,100\n300,100,700,100\n");
+  Simulation run = navigating(folder, "7,1\n", "roadmap='way.csv'", "", "");
+  run.step();
+  EXPECT_THAT(run.events(), testing::Contains(testing::Field(&Event::message,
+                                                             testing::HasSubstr("way.csv:2:1: the roadmap begins "))));
+}
+
 TEST(NavigateInputs, WhatIsWrongIsNamedOnce) {
   using testing::EndsWith;
   using testing::HasSubstr;
@@ -105,7 +114,7 @@ TEST(NavigateInputs, WhatIsWrongIsNamedOnce) {
       EndsWith("the table of rssi has no value in a column base[dBm]; expected that of muster map --from base"));
   EXPECT_THAT(refusal("roadmap='way.csv'", {{"way.csv", "x[m],y[m]\n1,1\n"}}, ""), HasSubstr("way.csv:1:1: "));
   EXPECT_THAT(refusal("roadmap='way.csv'", {{"way.csv", "x0[m],y0[m],x1[m],y1[m]\n1,1,1,1\n"}}, ""),
-              EndsWith("row 1 of the roadmap has no length; expected two different ends"));
+              EndsWith("way.csv:2:1: the row has no length; expected two different ends"));
   EXPECT_THAT(refusal("", {}, ""), EndsWith("the robot has no roadmap; expected roadmap=\"FILE\" of muster roadmap, or "
                                             "<robots.roadmap robot=\"rover\"/> in the world"));
   EXPECT_EQ(refusal("", {}), "");

@@ -282,10 +282,10 @@ TEST(AttitudeTable, ThrustThatNeverLiftsIsWarnedOf) {
   };
   EXPECT_EQ(
       warned("0.55"),
-      "s.csv:2:1: cmd_thrust is at most 0.55 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
+      "s.csv:2:3: cmd_thrust is at most 0.55 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
       "newtons; is it a share of the largest thrust, from 0 to 1? multiply it by that");
   EXPECT_EQ(warned("5"),
-            "s.csv:2:1: cmd_thrust is at most 5 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
+            "s.csv:2:3: cmd_thrust is at most 5 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
             "newtons");
   EXPECT_EQ(warned("7.1"), "");
 }

@@ -84,7 +84,7 @@ TEST(Waypoint, PlacesBelowTheGroundAreWarnedOf) {
   };
   EXPECT_EQ(warnings("x[m],y[m],z[m]\n0,0,0\n3,0,1\n"), "");
   EXPECT_EQ(warnings("x[m],y[m],z[m]\n0,0,0\n3,0,-1.5\n3,2,-2\n"),
-            "warning: path.csv:3:1: z = -1.5 m is below the ground, in 2 way points; is z down here, as in PX4 (NED)? "
+            "warning: path.csv:3:5: z = -1.5 m is below the ground, in 2 way points; is z down here, as in PX4 (NED)? "
             "expected metres up, and x east, y north\n");
 }
 

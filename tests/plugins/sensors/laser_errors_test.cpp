@@ -40,7 +40,7 @@ TEST(LaserErrors, AddTheBiasOfTheirTable) {
               Folder other;
               world_of(other, still + wall + rover(other) + "<sensors.laser biases=\"b.csv\"/>",
                        {{"b.csv", "range[m],bias[m]\n3,0.1\n3,0.2\n"}});
-            }).find("do not rise at its row 2; expected each above the one before"),
+            }).find("b.csv:3:1: the range does not rise: 3 m after 3 m; expected each above the one before"),
             std::string::npos);
 }
 

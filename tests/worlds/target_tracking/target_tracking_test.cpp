@@ -62,12 +62,12 @@ TEST(TargetTracking, AnObstacleOfNegativeRadiusIsRefused) {
   for (InstanceDeclaration& each : world.instances)
     for (XmlAttribute& given : each.attributes)
       if (given.name == "obstacles") given.value = discs;
-  Simulation run(std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
   try {
-    run.step();
+    Simulation run(std::move(world), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(discs + ":3:1: the radius is negative; expected a number from 0, in m"),
+    EXPECT_NE(std::string(error.what())
+                  .find(discs + ":3:5: column \"radius[m]\": -0.5 is negative; expected a number from 0, in m"),
               std::string::npos)
         << error.what();
   }
