@@ -34,6 +34,16 @@ const Entry* named(const ModelState& state, const std::string& id) {
   return nullptr;
 }
 
+// True if an alternative may replace a term: a cause that is better, or inseparable from it and nearly as good. A
+// smooth gives way only to a cause of its covariate: to one that is better, or of the same effect.
+bool may_replace(const Term& term, const Alternative& alternative, const Candidate& other) {
+  const bool better = alternative.evidence_gap <= -thresholds::clearly_nats,
+             nearly = alternative.evidence_gap <= thresholds::nearly_nats;
+  if (!term.smooth()) return better || (alternative.separability < thresholds::inseparable && nearly);
+  return other.role.replaces.count(term.candidate->own()) > 0 &&
+         (better || (alternative.separability < thresholds::same_effect_separability && nearly));
+}
+
 // Replaces a cause by an alternative that has become better, or by one of fewer parameters that is as good. A drift
 // that settles within seconds is a step.
 void give_way_to_alternatives(ModelState& state) {
@@ -41,21 +51,17 @@ void give_way_to_alternatives(ModelState& state) {
     return evidence_beside(state, state.design_without(term), *term.candidate, term.columns);
   };
   for (std::size_t k = 0; k < state.terms.size(); ++k) {
-    if (state.terms[k].smooth()) continue;
     double now = stands(state.terms[k]);
     for (const Alternative& alternative : alternatives_of(state, state.terms[k])) {
       const Entry* const entry = named(state, alternative.id);
       const bool there = std::any_of(state.terms.begin(), state.terms.end(), [&](const Term& term) {
         return term.candidate->id == alternative.id && term.candidate->label_of(term.theta) == alternative.label;
       });
-      if (!entry || there ||
-          alternative.evidence_gap > (alternative.separability < thresholds::inseparable ? thresholds::nearly_nats
-                                                                                         : -thresholds::clearly_nats))
-        continue;
+      if (!entry || there || !may_replace(state.terms[k], alternative, *entry->candidate)) continue;
       // For two causes with the same effect only the cost of their search differs: no reason to prefer a name.
-      const bool one = alternative.separability < thresholds::same_effect_separability &&
-                       std::abs(alternative.evidence_gap) < thresholds::nearly_nats;
       const Term before = state.terms[k];
+      const bool one = !before.smooth() && alternative.separability < thresholds::same_effect_separability &&
+                       std::abs(alternative.evidence_gap) < thresholds::nearly_nats;
       const int fewer = before.candidate->role.parameters - entry->candidate->role.parameters;
       const bool plainer = fewer > 0 || (fewer == 0 && state.columns_of(*entry->candidate, alternative.theta).norm() >
                                                            thresholds::weaker_strength * before.columns.norm());
@@ -66,9 +72,12 @@ void give_way_to_alternatives(ModelState& state) {
       state.terms[k].columns = state.columns_of(*entry->candidate, alternative.theta);
       state.refit();
       relocate(state, k, false);
-      const bool simpler = alternative.separability < thresholds::inseparable && (fewer > 0 || (one && plainer));
-      const double may_lose = one ? thresholds::nearly_nats : thresholds::clearly_nats;
-      if (const double then = stands(state.terms[k]); then > now + (simpler ? -may_lose : thresholds::clearly_nats)) {
+      double may_lose = -thresholds::clearly_nats;
+      if (before.smooth() ? alternative.separability < thresholds::same_effect_separability : one && plainer)
+        may_lose = thresholds::nearly_nats;
+      else if (!before.smooth() && alternative.separability < thresholds::inseparable && fewer > 0)
+        may_lose = thresholds::clearly_nats;
+      if (const double then = stands(state.terms[k]); then > now - may_lose) {
         now = then;
       } else {
         state.terms[k] = before;
