@@ -152,6 +152,7 @@ class Maker {
       Eigen::MatrixXd others(white.rows(), white.cols() - 1);
       others << white.leftCols(own), white.rightCols(white.cols() - own - 1);
       made_.causes[k].lambda = lambda_of(made_.causes[k], covariance, white.col(own), all.col(own), others);
+      if (made_.site.two_way) allow_the_other_way(made_.causes[k], covariance, others);
     }
   }
 
@@ -161,6 +162,22 @@ class Maker {
     return {made_.site,        made_.measured, simulator_.expected(world_elements(made_)), c.shadowing,
             c.decorrelation,   c.rician_k,     c.fading == Channel::Fading::per_reading,   made_.site.two_way,
             made_.counts_walls};
+  }
+
+  // What one radio sends too much differs from what it reads too little by a loss of both its directions. Where
+  // readings do not show as much of that, only the difference of the directions tells of either: no reading tells which
+  // it is.
+  void allow_the_other_way(PlantedCause& cause, const LinkCovariance& covariance, const Eigen::MatrixXd& others) const {
+    constexpr double indistinguishable = 12;
+    const bool sends = cause.id == "tx_offset";
+    if (!sends && cause.id != "rx_offset") return;
+    PlantedCause both{"feeder_loss"};
+    both.texts = cause.texts;
+    both.numbers = {{"loss", std::abs(cause.number("offset")), "dB"}};
+    const std::string base = world_elements(made_);
+    const Eigen::VectorXd apart = simulator_.expected(base + both.element()) - simulator_.expected(base);
+    if (unexplained(covariance.whitened(apart).col(0), others) < indistinguishable)
+      cause.also.emplace_back(sends ? "rx_offset" : "tx_offset");
   }
 
   // A place where links do not show the cause gives way to another.
