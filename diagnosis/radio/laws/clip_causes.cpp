@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -58,10 +59,14 @@ bool piles_by_itself(const LawSources& s, uint32_t side, const Clip& pile, const
 // True if all readings of a pile come from one extreme of the shadowing, which few radios see: neighbours there are at
 // one level, for the slope of a smooth field vanishes at its extremes.
 bool at_one_extreme(const LawSources& s, const Clip& pile) {
-  const noise::StatedField field = noise::stated_by(s.state.fit.covariance, s.state.within());
+  const noise::StatedField field = noise::stated_by(s.state.fit.covariance, s.state.within()),
+                           stated = drawn_field(s.model);
+  // A clip makes the fitted field wide: the stated one is, where there is one.
+  const double extreme =
+      stated.shadowing > 0 ? std::min(field.decorrelation, stated.decorrelation) : field.decorrelation;
   return field.shadowing >= thresholds::field_of_extremes &&
          links_at_level(s.data, pile.level) < thresholds::links_beyond_an_extreme &&
-         extent_at_level(s.data, pile.level) < field.decorrelation;
+         extent_at_level(s.data, pile.level) < extreme;
 }
 
 void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step, Diagnosis& found) {
