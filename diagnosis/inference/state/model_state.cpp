@@ -78,9 +78,20 @@ double WhitenedModel::skew_charge(const Eigen::MatrixXd& columns) const {
   const auto added = noise::basis_of(at.basis.rest(whitener(columns)));
   const Eigen::ArrayXd effect = (added.q * (added.q.transpose() * at.residual)).array();
   const Eigen::ArrayXd scatter = at.residual.array() - effect;
+  double third = 0;  // cumulant of the columns' sum
+  for (const bool of_alone : {false, true}) {
+    double count = 0, squares = 0, cubes = 0, weights = 0;
+    for (Index i = 0; i < scatter.size(); ++i) {
+      if ((!alone.empty() && alone[static_cast<std::size_t>(i)]) != of_alone) continue;
+      count += 1;
+      squares += scatter[i] * scatter[i];
+      cubes += scatter[i] * scatter[i] * scatter[i];
+      weights += effect[i] * effect[i] * effect[i];
+    }
+    if (squares > 0) third += cubes / count / std::pow(squares / count, 1.5) * weights;
+  }
   const double energy = effect.square().sum();
-  const double skewness = scatter.cube().mean() / std::pow(scatter.square().mean(), 1.5);
-  return inference::skew_charge(std::sqrt(energy), skewness * effect.cube().sum() / std::pow(energy, 1.5));
+  return inference::skew_charge(std::sqrt(energy), third / std::pow(energy, 1.5));
 }
 
 Eigen::VectorXd WhitenedModel::coefficients(Index columns) const {
@@ -174,7 +185,11 @@ Eigen::MatrixXd ModelState::design_without(const Term& term) const {
 WhitenedModel ModelState::whitened_model(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
   noise::Whitener whitener(field_, covariance);
   noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
-  return {std::move(whitener), std::move(at), design};
+  std::vector<bool> alone;
+  if (!field_.sites().alone.empty()) {
+    for (Index i = 0; i < rows_.size(); ++i) alone.push_back(field_.sites().is_alone(i));
+  }
+  return {std::move(whitener), std::move(at), design, std::move(alone)};
 }
 
 noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {

@@ -42,6 +42,7 @@ struct WhitenedModel {
   noise::Whitener whitener;
   noise::Whitened at;
   Eigen::MatrixXd design;
+  std::vector<bool> alone{};  // of rows whose noise is their own, such as differences of twins; empty: none
 
   // Fall of the deviance if these columns (row means) are added.
   double gain(const Eigen::MatrixXd& columns) const;
@@ -50,7 +51,7 @@ struct WhitenedModel {
   // The same with all coefficients at 1.
   double gain_as_it_is(const Eigen::MatrixXd& columns) const;
   // Log ratio, nats, of that fall's density under noise as skewed as the residuals to its density under normal noise.
-  // Deep negative residuals that lie together resemble a loss.
+  // Deep negative residuals that lie together resemble a loss. Rows alone have a skewness of their own.
   double skew_charge(const Eigen::MatrixXd& columns) const;
   Eigen::VectorXd coefficients(Index columns) const;
 };

@@ -150,5 +150,28 @@ TEST(SkewCharge, IsTheLogRatioOfTheSkewedToTheNormalTail) {
   EXPECT_NEAR(skew_charge(6, 0), 0, 1e-9);
 }
 
+// Fades that both directions of a link share are skewed; half their differences are not.
+TEST(SkewCharge, OfRowsAloneIsTheirOwn) {
+  const auto world = world_of(varied(7, 2000));
+  const auto causes = causes_of(world);
+  const ModelState state(problem_of(world, Eigen::VectorXd::Zero(world.rssi.size()), causes), {});
+  WhitenedModel model = state.whitened_model(state.base());
+  const Index rows = state.rows().size();
+  const Stream stream(key_of("skewed"));
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(rows);
+  for (Index i = 0; i < rows; ++i) {
+    const auto k = static_cast<uint64_t>(i);
+    const bool alone = i >= rows / 2;
+    column[i] = i >= rows - 60;
+    model.alone.push_back(alone);
+    model.at.residual[i] = alone ? stream.normal(k) : std::log(stream.uniform(k) + 1e-9) + 1;
+  }
+  const Eigen::VectorXd late = model.at.basis.rest(model.whitener(column));
+  model.at.residual -= late * (late.dot(model.at.residual) + 6 * late.norm()) / late.squaredNorm();  // z of -6
+  EXPECT_LT(model.skew_charge(column), 0.3);
+  model.alone.clear();
+  EXPECT_GT(model.skew_charge(column), 1);
+}
+
 }  // namespace
 }  // namespace muster::inference
