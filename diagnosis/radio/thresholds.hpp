@@ -194,7 +194,7 @@ inline constexpr double disk_worth = 0.5;
 // laws: all
 
 // nats; from which a reading needs a law that adds draws; chosen; none
-inline constexpr double needs_law = 0.3;
+inline constexpr double needs_law = 1;
 // probability; of as many pairs of successive readings that need it by chance; chosen;
 // Survey.ReadingsThatAreOffInRunsAreNoOutliers
 inline constexpr double pairs_alpha = 1e-4;
@@ -202,7 +202,7 @@ inline constexpr double pairs_alpha = 1e-4;
 inline constexpr double alike_share = 0.25;
 // factor; of that share, beyond which pairs of successive readings are what lasts; chosen;
 // Survey.ReadingsThatAreOffInRunsAreNoOutliers
-inline constexpr double lasting = 2;
+inline constexpr double lasting = 3;
 // m; within which two readings of a link are of one place; chosen; none
 inline constexpr double repeats_within = 1e-3;
 // share; of readings that repeat a place where a network stands; chosen; Survey.OutliersInANetworkThatStands
