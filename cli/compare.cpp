@@ -45,8 +45,9 @@ Tolerances tolerances_of(const std::vector<std::string>& words) {
     if (equals == std::string::npos)
       throw Error(Exit::invalid_input,
                   "--within " + quote(word) + ": expected QUANTITY=TOLERANCE, such as pose/distance=0.05");
+    const std::string option = "--within " + word.substr(0, equals + 1);
     const double tolerance =
-        real_of(word.substr(equals + 1), "--within", word.substr(0, equals).ends_with("distance") ? "m" : "");
+        real_of(word.substr(equals + 1), option.c_str(), word.substr(0, equals).ends_with("distance") ? "m" : "");
     if (tolerance < 0) throw Error(Exit::invalid_input, "--within " + quote(word) + ": expected a tolerance from 0");
     result[word.substr(0, equals)] = tolerance;
   }

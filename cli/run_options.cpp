@@ -32,9 +32,11 @@ double real_of(const std::string& text, const char* option, const char* unit) {
                              : std::string_view(unit) == "m" ? "metres"
                                                              : unit;
     const auto meant = in_unit(unit, text);
-    throw Error(Exit::invalid_input, std::string(option) + ": " + why_not_real(text) +
-                                         (name.empty() ? "" : "; expected " + name) +
-                                         (meant ? ": " + std::string(option) + ' ' + print_real(*meant) : ""));
+    throw Error(Exit::invalid_input,
+                std::string(option) + ": " + why_not_real(text) + (name.empty() ? "" : "; expected " + name) +
+                    (meant ? ": " + std::string(option) + (std::string_view(option).ends_with('=') ? "" : " ") +
+                                 print_real(*meant)
+                           : ""));
   }
   return *value;
 }

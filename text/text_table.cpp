@@ -126,7 +126,8 @@ void TextTable::fail_ragged(std::size_t found) const {
     throw invalid(file_.place(start), text.find_first_not_of("\r\n", start) == text.npos
                                           ? "the file ends in an empty line; expected none below the last row"
                                           : "the line is empty; expected a row");
-  if (const bool is_first = row_starts_.size() == 2 && width_ == 1; is_comment(is_first ? text : text.substr(start)))
+  if (const bool is_first = row_starts_.size() == 2 && (width_ == 1 || is_comment(text));
+      is_comment(is_first ? text : text.substr(start)))
     throw invalid(file_.place(is_first ? 0 : start), "the line is a comment, and tables have none; expected " +
                                                          std::string(is_first ? "the header" : "a row") +
                                                          ": grep -v '^[#%]' FILE leaves comments out");

@@ -156,6 +156,10 @@ class Reader {
  private:
   void read_rule(const std::string& line) {
     const std::size_t equals = line.find('=');
+    if (const auto words = words_of(line);
+        equals == line.npos && words.size() > 3 && words[0] == "for" && words[2] == "in")
+      throw invalid(place_,
+                    quote(line) + " has no '='; expected for " + words[1] + " =" + line.substr(line.find(" in ") + 3));
     if (equals == line.npos)
       throw invalid(place_, quote(line) + " has no '='; expected COLUMN[UNIT] = RULE" +
                                 (line.find_first_of(",;\t") != line.npos

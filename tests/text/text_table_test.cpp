@@ -219,6 +219,9 @@ TEST_F(Table, LinesThatAreNoRowsAreToldForWhatTheyAre) {
   EXPECT_EQ(error([&] { read("# way points\na,b\n1,2\n"); }),
             "d.csv:1:1: the line is a comment, and tables have none; expected the header: grep -v '^[#%]' FILE leaves "
             "comments out");
+  EXPECT_EQ(error([&] { read("# walk 3, November\na,b,c\n1,2,3\n"); }),
+            "d.csv:1:1: the line is a comment, and tables have none; expected the header: grep -v '^[#%]' FILE leaves "
+            "comments out");
   EXPECT_EQ(error([&] { read("a,b\n1,2\n% more\n3,4\n"); }),
             "d.csv:3:1: the line is a comment, and tables have none; expected a row: grep -v '^[#%]' FILE leaves "
             "comments out");

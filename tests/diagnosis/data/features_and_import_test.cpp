@@ -148,6 +148,7 @@ TEST(Import, WhatDoesNotFitIsNamed) {
   EXPECT_EQ(failing(by_place), "m.map:1: id {px} is \"1000\" in line 2 of " + wide + ", and " + anchors +
                                    " has no such \"id\"; expected a column that has, such as {heading}");
   EXPECT_NE(failing("rssi[dBm] = rsi_1\n").find("did you mean \"rssi_1\"?"), std::string::npos);
+  EXPECT_EQ(failing("for i in 1 2 3\n"), "m.map:1: \"for i in 1 2 3\" has no '='; expected for i = 1 2 3");
   EXPECT_EQ(failing("rssi[dBm] rssi_1\n"), "m.map:1: \"rssi[dBm] rssi_1\" has no '='; expected COLUMN[UNIT] = RULE");
   EXPECT_EQ(
       failing("x[m] = 0,001*px\n"),
