@@ -35,13 +35,14 @@ const Entry* named(const ModelState& state, const std::string& id) {
 }
 
 // True if an alternative may replace a term: a cause that is better, or inseparable from it and nearly as good. A
-// smooth gives way only to a cause of its covariate: to one that is better, or of the same effect.
+// smooth gives way only to a better cause of its covariate, or to one of the same effect: not to one in time, which a
+// column that changes with time resembles by chance.
 bool may_replace(const Term& term, const Alternative& alternative, const Candidate& other) {
   const bool better = alternative.evidence_gap <= -thresholds::clearly_nats,
              nearly = alternative.evidence_gap <= thresholds::nearly_nats;
   if (!term.smooth()) return better || (alternative.separability < thresholds::inseparable && nearly);
-  return other.role.replaces.count(term.candidate->own()) > 0 &&
-         (better || (alternative.separability < thresholds::same_effect_separability && nearly));
+  const bool same = alternative.separability < thresholds::same_effect_separability && !other.role.time_like;
+  return (better && other.role.replaces.count(term.candidate->own()) > 0) || (same && nearly);
 }
 
 // Replaces a cause by an alternative that has become better, or by one of fewer parameters that is as good. A drift

@@ -131,9 +131,6 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.role.level_like = shape.set().empty() && !placed && !time;
   if (placed && !c.role.slow) c.role.pieces = "place";
   std::tie(c.covariates, c.role.replaces) = covariates_of(shape);
-  if (column == "walls") {
-    for (const std::string& material : geometry_.counted) c.role.replaces.insert("walls_" + material);
-  }
   c.role.over_sites = c.own() == "map";
   if (!c.refinement.any()) return;
   c.refinement.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;
