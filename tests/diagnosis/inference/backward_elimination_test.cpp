@@ -190,6 +190,23 @@ Candidate wave(const synthetic::World& world, const std::string& id, Kind kind, 
   return c;
 }
 
+// A count of walls is the loss of these walls. A battery that falls with time is no drift.
+TEST(BackwardElimination, ASmoothGivesWayToACauseOfTheSameEffectThatIsNotInTime) {
+  const auto world = world_of(varied(13, 4000));
+  const Candidate smooth = wave(world, "~part", Kind::smooth, 0, 1, 7);
+  Candidate same = wave(world, "same", Kind::named, 0, 1, 7);
+  same.covariates = {"count"};
+  const Eigen::VectorXd effect = scaled_to(world, smooth.design.columns({}).col(0), 200);
+  for (const bool in_time : {false, true}) {
+    same.role.time_like = in_time;
+    Problem problem = problem_of(world, effect, {same});
+    problem.smooths = {smooth};
+    const std::vector<Term> terms = terms_left(problem, {{"~part", {}}});
+    ASSERT_EQ(terms.size(), 1u);
+    EXPECT_EQ(terms[0].candidate->id, in_time ? "~part" : "same");
+  }
+}
+
 // Of three on one covariate, each shares rows with the next. A name is withdrawn beside a smooth, and not beside a
 // name that is withdrawn itself, in whatever order they were found.
 TEST(BackwardElimination, ANameThatIsWithdrawnDoesNotWithdrawTheNext) {
