@@ -163,6 +163,7 @@ struct Diagnosis {
   std::optional<inference::Unseen> unseen;      // held-out errors behind held_out, in the order of `used`
   std::vector<inference::Elsewhere> elsewhere;  // the same on held-out radios and runs, if there are several
   std::vector<Eigen::Index> used;               // rows of the table used in the search
+  std::optional<double> end;                    // dBm; a floor below which readings are missing from the table
   Eigen::VectorXd fitted;                       // mean of the world as given, fitted, at every row of the table, dBm
   std::map<std::string, double> parameters;     // of the world, refitted beside the causes
   std::vector<WorldValue> world_values;         // the same with their uncertainty

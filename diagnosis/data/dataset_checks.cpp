@@ -170,7 +170,18 @@ void refuse_copies(const Dataset& data, std::size_t row) {
                       " repeat rows 1 and following: the log is joined to itself; expected it once");
 }
 
-// One pass in file order finds both faults: time of a pair may repeat only if (t, tx, rx) does not.
+// True if one end of the link has moved between two rows: they are two readings, though the clock tells one time.
+bool moved_between(const Dataset& data, std::size_t before, std::size_t row) {
+  const auto differ = [&](const std::vector<Point>& places) {
+    if (places.empty()) return false;
+    const Point &a = places[before], &b = places[row];
+    return !std::equal(a.begin(), a.end(), b.begin(),
+                       [](double one, double other) { return one == other || (std::isnan(one) && std::isnan(other)); });
+  };
+  return differ(data.tx_at) || differ(data.rx_at);
+}
+
+// One pass in file order finds both faults: time of a pair may repeat only if (t, tx, rx) does not, or if it has moved.
 void check_times(const Dataset& data) {
   if (data.t.empty()) return;
   std::unordered_map<std::uint64_t, std::size_t> last;
@@ -182,7 +193,7 @@ void check_times(const Dataset& data) {
       const std::size_t before = entry->second;
       if (data.t[row] <= data.t[before]) refuse_copies(data, row);
       const std::string who = data.pair(row) + " at t = " + print_real(data.t[row]) + " s";
-      if (data.t[row] == data.t[before])
+      if (data.t[row] == data.t[before] && !moved_between(data, before, row))
         throw invalid(at(data, row, "t"),
                       row_text(row) + ": " + who + " repeats " + row_text(before) + "; expected each (t, tx, rx) once");
       if (data.t[row] < data.t[before])

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
@@ -50,12 +51,12 @@ Diagnosis interrupted(Diagnosis found) {
 
 class Diagnoser {
  public:
-  // Laws of the cause `without_law` are not tested. `expected`: as of a DiagnosisSetup.
+  // Laws of the cause `without_law` are not tested.
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins,
             const std::shared_ptr<TableCache>& tables, const inference::Watch& watch,
-            const std::string& without_law = "", const VectorXd& expected = {})
+            const Earlier& earlier = {}, const std::string& without_law = "")
       : watch_(watch),
-        setup_(world, file, plugins, tables, expected),
+        setup_(world, file, plugins, tables, earlier),
         moved_(setup_.model),
         causes_(setup_.causes),
         world_(world),
@@ -247,7 +248,8 @@ class Diagnoser {
       return in_order(out);
     }
     add_clips(sources, out);
-    if (add_silence_beside(sources, extend(state, out), out)) extend(state, out);
+    const VectorXd mean = extend(state, out);
+    if (add_silence_beside(sources, mean, out) || add_truncation(sources, out)) extend(state, out);
     const std::size_t before = out.causes.size();
     add_laws(sources, out);
     if (out.causes.size() > before) extend(state, out);  // a fading law changes the mean
@@ -288,6 +290,7 @@ struct Diagnosed {
   Library::SearchPath plugins;
   std::shared_ptr<TableCache> tables;
   const inference::Watch& watch;
+  std::optional<double> end;  // of the table's readings, dBm
 
   // In the world corrected for a cause that was judged in a world of its own. Nothing if the error at left-out places
   // is above that beside all that was found in the given world. `by_itself`: as of Diagnoser::run.
@@ -297,7 +300,7 @@ struct Diagnosed {
     first.causes[0].put_right_first = true;
     for (const auto& [path, value] : verdict.parameters) first.parameters[path] = value;
     const TemporaryFolder folder;
-    Diagnosis out = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch)
+    Diagnosis out = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {{}, end})
                         .run(&first, by_itself);
     if (found.unseen && out.unseen &&
         out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
@@ -343,6 +346,18 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   Diagnosis found = given->run();
   if (found.interrupted) return found;
   if (watch.stop()) return interrupted(std::move(found));
+  std::optional<double> end;
+  if (found.end) {
+    watch.at("diagnosing again, with readings that end at a floor");
+    auto ended = std::make_unique<Diagnoser>(world, data, plugins, tables, watch, Earlier{{}, found.end});
+    Diagnosis again = ended->run();
+    if (watch.stop()) return interrupted(std::move(found));
+    if (again.end) {
+      end = again.end;
+      found = std::move(again);
+      given = std::move(ended);
+    }
+  }
   const OwnWorldVerdict verdict = given->in_own_worlds(found);
   const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
   OwnWorldVerdict exchanged{{}, found.parameters, {}, {}};
@@ -350,7 +365,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   given.reset();
   if (verdict.cause && !names(found, *verdict.cause)) {
     watch.at("diagnosing again, with the world corrected for " + verdict.cause->id);
-    auto corrected = Diagnosed{world, data, plugins, tables, watch}.corrected_for(verdict, found, true);
+    auto corrected = Diagnosed{world, data, plugins, tables, watch, end}.corrected_for(verdict, found, true);
     if (watch.stop()) return interrupted(std::move(found));
     if (corrected) {
       add_searched(verdict, *corrected);
@@ -364,7 +379,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   first.causes = {*spoiler};
   first.causes[0].sought_as.clear();
   const TemporaryFolder folder;
-  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, "", found.mean);
+  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end});
   if (!blockage) {
     first.causes[0].put_right_first = true;
     Diagnosis corrected = with_it.run(&first);
@@ -372,7 +387,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     if (watch.stop()) return interrupted(std::move(found));
     if (!exchanged.cause) return corrected;
     watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);
-    auto other = Diagnosed{world, data, plugins, tables, watch}.corrected_for(exchanged, found, false);
+    auto other = Diagnosed{world, data, plugins, tables, watch, end}.corrected_for(exchanged, found, false);
     if (watch.stop()) return interrupted(std::move(found));
     return other && other->unseen && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
   }
@@ -380,7 +395,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   keep_notes_of_given(world, found, folder.path(), again);
   if (watch.stop()) return interrupted(std::move(found));
   if (first.causes[0].log_p > thresholds::blockage_in_company && something_changes_in_time(again)) {
-    Diagnosis result = Diagnoser(world, data, plugins, tables, watch, first.causes[0].id).run();
+    Diagnosis result = Diagnoser(world, data, plugins, tables, watch, {{}, end}, first.causes[0].id).run();
     if (watch.stop()) return interrupted(std::move(found));
     result.searched = found.searched;
     return result;

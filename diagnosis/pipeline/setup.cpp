@@ -8,9 +8,11 @@
 #include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/causes/cheap_columns.hpp"
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
+#include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
 #include "diagnosis/radio/links/twin_readings.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -90,12 +92,22 @@ std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws
   };
 }
 
+// A table that tells of readings that are missing keeps them as bounds instead. Where all readings are stronger than
+// what the world's receiver can hear, they end nowhere.
+std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
+  if (at.fitted.missing.count > 0) return {};
+  const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation());
+  const double weakest = *std::min_element(at.data.rssi.begin(), at.data.rssi.end());
+  return level && weakest <= *level + thresholds::reaches_a_floor ? level : std::nullopt;
+}
+
 inference::Problem problem_of(const DiagnosisSetup& at) {
   ObservedLevels levels = observed_levels(at.data, at.receiver, at.fitted.readings, at.used.rows);
   inference::Problem problem;
   problem.layout = at.layout;
   problem.measured = levels.measured - at.base.offset()(at.used.rows);
   problem.bounds = std::move(levels.bounds);
+  if (at.end) problem.bounds.end = (*at.end - at.receiver.step / 2) - at.base.offset()(at.used.rows).array();
   problem.base = at.base.slopes(at.used.rows, Eigen::all);
   for (const CauseCandidate& c : at.sought.found) problem.candidates.push_back(c.candidate);
   problem.smooths = link_smooths(at.layout->readings(), at.observed.columns, at.data.has_places());
@@ -108,7 +120,7 @@ inference::Problem problem_of(const DiagnosisSetup& at) {
 
 DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& table,
                                const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
-                               const VectorXd& expected)
+                               const Earlier& earlier)
     : file(table),
       data(read_dataset(tables->read(table))),
       receiver(receiver_checks(data)),
@@ -117,8 +129,9 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       causes(causes_on(plugins)),
       notes_of_places(data.has_places() ? check_places(model, data) : std::vector<std::string>{}),
       fitted(fit(model, data, hold_causes(model))),
+      end(end_of(*this, earlier)),
       base(sensitivities(model, fitted.parameters)),
-      used(used_rows(model, data, expected.size() > 0 ? expected : fitted.mean, fitted.rows_used())),
+      used(used_rows(model, data, earlier.expected.size() > 0 ? earlier.expected : fitted.mean, fitted.rows_used())),
       notes(joined({data.notes, notes_on_radios(model, data), doubts_of(model, data), notes_of_places, used.notes})),
       run(std::make_shared<CauseModel>(model, world, table, plugins)),
       observed(observed_columns(data, used.rows)),

@@ -1,6 +1,8 @@
 // Setup of a diagnosis: world and measured readings, the fitted world, and a candidate for each testable cause.
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/calibration/fit.hpp"
 #include "diagnosis/causes/cause_candidates.hpp"
 #include "diagnosis/inference/state/problem.hpp"
@@ -12,14 +14,21 @@
 
 namespace muster::diagnosis {
 
+// What an earlier diagnosis of the same readings tells.
+struct Earlier {
+  // Level of every row of the table [dBm], by which blocked readings are known; empty: that of the fitted world.
+  Eigen::VectorXd expected{};
+  // Level below which no reading is in the table [dBm]; none: that of the world's receiver, if it has one.
+  std::optional<double> end{};
+};
+
 // Each member is built from those above it.
 struct DiagnosisSetup {
-  // `tables`: files already read. `expected`: the level of every row of the table by an earlier diagnosis [dBm], by
-  // which blocked readings are known; empty: that of the fitted world. Throws Error.
+  // `tables`: files already read. Throws Error.
   DiagnosisSetup(const std::filesystem::path& world, const std::filesystem::path& file,
                  const Library::SearchPath& plugins,
                  const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>(),
-                 const Eigen::VectorXd& expected = {});
+                 const Earlier& earlier = {});
   DiagnosisSetup(const DiagnosisSetup&) = delete;
   DiagnosisSetup& operator=(const DiagnosisSetup&) = delete;
 
@@ -31,6 +40,7 @@ struct DiagnosisSetup {
   const std::vector<Cause> causes;                 // of the plugin path
   const std::vector<std::string> notes_of_places;  // on radios whose places differ between data and world
   const Fit fitted;
+  const std::optional<double> end;  // dBm; readings below it are not in the table
   const Sensitivities base;
   const UsedRows used;
   const std::vector<std::string> notes;   // all notes on the data

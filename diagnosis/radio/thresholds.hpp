@@ -128,6 +128,11 @@ inline constexpr double censored_evidence = 10;
 inline constexpr double censored_share = 0.5;
 // dB; above a floor, where readings must be as many as expected; chosen; none
 inline constexpr double above_floor = 3;
+// dB; of the weakest reading above the world's own floor, to take the readings for those that it leaves; chosen; none
+inline constexpr double reaches_a_floor = 1;
+// share; of the readings that a floor gathers closely above it, which there must be; chosen;
+// Truncation.OfMeansThatAreTooLowIsNotAbrupt
+inline constexpr double near_a_floor = 0.7;
 // deviance; of a floor that cuts levels off; derived; MissingData.AFloorInTheTailTakesFew
 inline constexpr double cut_off_evidence = 4;
 // probability; of no reading below a floor that cuts levels off; chosen; none

@@ -15,10 +15,28 @@ double hazard(double z) {
   return std::exp(-z * z / 2) / std::sqrt(2 * M_PI) / (0.5 * std::erfc(z / std::sqrt(2.0)));
 }
 
+double log_above(double z) { return std::log(0.5 * std::erfc(z / std::sqrt(2.0))); }
+
+// The standard normal variable that as large a share of all lies above as of those above `end` lies above z. Newton's
+// method on the logarithm of that share, which is concave: from z it goes down and never too far.
+double of_same_rank(double z, double end) {
+  constexpr double most = 8, least = -4;  // standard deviations
+  if (end < least) return z;
+  z = std::clamp(z, std::min(end, most), most);
+  const double share = log_above(z) - log_above(std::min(end, most));
+  double x = z;
+  for (int k = 0; k < 30 && x > least; ++k) {
+    const double step = (log_above(x) - share) / hazard(x);
+    x += step;
+    if (std::abs(step) < 1e-9) break;
+  }
+  return std::max(x, least);
+}
+
 }  // namespace
 
 bool Bounds::any() const {
-  return std::any_of(known.begin(), known.end(), [](Known k) { return k != Known::value; });
+  return end.size() > 0 || std::any_of(known.begin(), known.end(), [](Known k) { return k != Known::value; });
 }
 
 double Bounds::lowest(std::size_t i, double reading) const {
@@ -49,7 +67,11 @@ Eigen::VectorXd imputed(const Eigen::VectorXd& readings, const Bounds& bounds, c
     unknown = 0;
     for (Eigen::Index i = 0; i < filled.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      if (!bounds.is_bound(k)) continue;
+      if (!bounds.is_bound(k)) {
+        if (bounds.end.size() == 0) continue;
+        filled[i] = mean[i] + sd * of_same_rank((readings[i] - mean[i]) / sd, (bounds.end[i] - mean[i]) / sd);
+        continue;
+      }
       const double side = bounds.known[k] == Known::above ? 1 : -1;
       const double z = side * (readings[i] - side * bounds.half_code - mean[i]) / sd;
       const double h = hazard(z);

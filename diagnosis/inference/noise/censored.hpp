@@ -1,6 +1,7 @@
 // Imputes censored readings: those clipped at the top or bottom code, or lost below the floor. Each becomes its
 // expectation beyond the bound; mean and spread are refitted in turn (Tobit: Tobin 1958; EM: Dempster, Laird and
-// Rubin 1977).
+// Rubin 1977). Where readings below a level are missing from the table (truncation), those above it become the normal
+// levels of the same rank.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +16,7 @@ enum class Known : uint8_t { value = 1, below, above };
 struct Bounds {
   std::vector<Known> known;  // one a reading; empty: all are values
   double half_code = 0.5;    // units of a reading: a bound's code covers levels up to half a step beyond it
+  Eigen::VectorXd end{};     // of each reading, the level below which it would be missing; empty: none would
 
   bool any() const;
   // The range in which the level of a reading lies.

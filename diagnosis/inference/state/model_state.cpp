@@ -155,16 +155,24 @@ std::vector<Eigen::VectorXd> ModelState::proposals(const Candidate& candidate, T
   return candidate.refinement.proposed(of_origin);
 }
 
-void ModelState::impute(int rounds) {
+Eigen::MatrixXd ModelState::design_of_readings() const {
   Eigen::MatrixXd design = problem_.base;
-  if (problem_.bounds.any()) {
-    for (const Term& term : terms) {
-      const Index from = design.cols();
-      design.conservativeResize(Eigen::NoChange, from + term.columns.cols());
-      for (Index j = 0; j < term.columns.cols(); ++j) design.col(from + j) = rows_.at_readings(term.columns.col(j));
-    }
+  for (const Term& term : terms) {
+    const Index from = design.cols();
+    design.conservativeResize(Eigen::NoChange, from + term.columns.cols());
+    for (Index j = 0; j < term.columns.cols(); ++j) design.col(from + j) = rows_.at_readings(term.columns.col(j));
   }
-  measured_ = noise::imputed(problem_.measured, problem_.bounds, design, rounds);
+  return design;
+}
+
+Eigen::VectorXd ModelState::mean_of_readings() const {
+  const Eigen::MatrixXd at_readings = design_of_readings();
+  return at_readings * whitened_model(design()).coefficients(at_readings.cols());
+}
+
+void ModelState::impute(int rounds) {
+  measured_ = noise::imputed(problem_.measured, problem_.bounds,
+                             problem_.bounds.any() ? design_of_readings() : problem_.base, rounds);
   y_ = rows_.mean(measured_);
 }
 

@@ -89,6 +89,8 @@ class ModelState {
 
   const Eigen::VectorXd& y() const { return y_; }
   const Eigen::VectorXd& measured() const { return measured_; }  // the readings whose row means y holds
+  // Of every reading, by the model with all its terms.
+  Eigen::VectorXd mean_of_readings() const;
   // Imputes censored readings anew from the current model.
   void impute(int rounds);
 
@@ -127,6 +129,7 @@ class ModelState {
 
  private:
   Entry entry(Candidate candidate) const;
+  Eigen::MatrixXd design_of_readings() const;
   noise::Field field_of(const noise::Rows& rows) const;
   const noise::WhitenerSlopes& factorised_at(const noise::Covariance& start) const;
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "diagnosis/calibration/truncation.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -22,13 +24,18 @@ std::vector<const Cause*> clips_of(const LawSources& s, uint32_t side, bool sile
   return causes_that(s, [&](const Cause& cause) { return acts(*cause.plugin, side, silent); });
 }
 
+// Level at which this instance clips, dBm.
+double level_of(const Instance& instance) {
+  const int at = instance.find_param(instance.plugin().clip->level);
+  return instance.params()[static_cast<std::size_t>(at)];
+}
+
 // True if an instance of the world already clips there.
 bool clips_at(const LawSources& s, uint32_t side, bool silent, double level, double step) {
   const auto& all = s.model.simulation().instances();
   return std::any_of(all.begin(), all.end(), [&](const auto& instance) {
-    if (!acts(instance->plugin(), side, silent)) return false;
-    const int at = instance->find_param(instance->plugin().clip->level);
-    return std::abs(instance->params()[static_cast<std::size_t>(at)] - level) <= std::max(step, thresholds::same_clip);
+    return acts(instance->plugin(), side, silent) &&
+           std::abs(level_of(*instance) - level) <= std::max(step, thresholds::same_clip);
   });
 }
 
@@ -97,7 +104,70 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   return true;
 }
 
+// Scatter of the readings whose mean is near the weakest one: less than that of all, where only those above a floor
+// are.
+double scatter_near(double floor, const VectorXd& heard, const VectorXd& mean, double of_all) {
+  double count = 0, sum = 0, squares = 0;
+  for (Eigen::Index i = 0; i < heard.size(); ++i) {
+    if (mean[i] - floor > thresholds::near_clip * of_all) continue;
+    const double error = heard[i] - mean[i];
+    count += 1;
+    sum += error;
+    squares += error * error;
+  }
+  return count < 2 ? of_all : std::min(of_all, std::sqrt((squares - sum * sum / count) / (count - 1)));
+}
+
+Truncation truncation_at_the_end(const VectorXd& heard, const VectorXd& mean, double step) {
+  const double of_all = std::sqrt((heard - mean).squaredNorm() / static_cast<double>(heard.size()));
+  const double sigma = scatter_near(heard.minCoeff(), heard, mean, std::max(of_all, 0.1));
+  return truncation_of(heard, mean, std::max(sigma, 0.1), step / 2);
+}
+
+// Monte Carlo test: true if one of the fitted world's own draws ends as abruptly: its receiver may hear no less.
+bool ends_by_itself(const LawSources& s, double evidence, const Diagnosis& found) {
+  for (uint64_t k = 0; k < thresholds::pile_draws; ++k) {
+    const WorldDraw draw = s.draws.draw(k, found.parameters, {});
+    std::vector<Eigen::Index> heard;
+    for (const Eigen::Index i : s.used) {
+      if (std::isfinite(draw.drawn[i]) && std::isfinite(draw.expected[i])) heard.push_back(i);
+    }
+    if (heard.empty()) continue;
+    const Truncation end = truncation_at_the_end(draw.drawn(heard), draw.expected(heard), found.receiver.step);
+    if (end.evidence >= evidence) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+std::optional<double> silent_below(const Simulation& simulation) {
+  std::optional<double> level;
+  for (const auto& instance : simulation.instances()) {
+    if (!acts(instance->plugin(), MUSTER_BELOW, true)) continue;
+    const char* const choice = instance->plugin().clip->choice;
+    if (choice && instance->params()[static_cast<std::size_t>(instance->find_param(choice))] == 0) continue;
+    level = std::max(level.value_or(-std::numeric_limits<double>::infinity()), level_of(*instance));
+  }
+  return level;
+}
+
+bool add_truncation(const LawSources& s, Diagnosis& found) {
+  const std::vector<const Cause*> causes = clips_of(s, MUSTER_BELOW, true);
+  if (causes.empty() || s.fit.missing.count > 0 || found.receiver.bottom) return false;
+  const VectorXd heard = s.fit.readings.rssi(s.used);
+  const VectorXd expected = heard - (s.state.problem().measured - s.state.mean_of_readings());
+  const double step = found.receiver.step;
+  const Truncation end = truncation_at_the_end(heard, expected, step);
+  const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
+  const double evidence = thresholds::joint_loss * end.evidence;
+  if (-evidence > least || !end.is_abrupt() || clips_at(s, MUSTER_BELOW, true, end.floor, step) ||
+      ends_by_itself(s, end.evidence, found))
+    return false;
+  add_clip(s, causes, end.floor, std::max(step, 0.02), true, {"", {}, 2 * evidence, evidence, -evidence}, found);
+  found.end = end.floor;
+  return true;
+}
 
 void add_clips(const LawSources& s, Diagnosis& found) {
   const double step = found.receiver.step;

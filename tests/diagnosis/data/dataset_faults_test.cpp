@@ -24,6 +24,11 @@ TEST(DatasetFaults, RepeatedReading) {
             "d.csv:4:1: row 3: a -> b at t = 0 s repeats row 1; expected each (t, tx, rx) once");
 }
 
+// Two readings within one tick of a coarse clock.
+TEST(DatasetFaults, ARepeatedTimeIsNoneWhereARadioHasMoved) {
+  EXPECT_EQ(reading(header + "0,a,b,0,0,1,0,-50\n0,a,b,0,0,1.1,0,-52\n1,a,b,0,0,1.2,0,-52\n"), "");
+}
+
 TEST(DatasetFaults, TimeRunsBackwardsWithinAPair) {
   EXPECT_EQ(
       reading(header + "5,a,b,0,0,1,0,-50\n1,a,c,0,0,2,0,-51\n4,a,b,0,0,1,0,-52\n"),

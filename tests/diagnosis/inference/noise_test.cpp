@@ -293,6 +293,34 @@ TEST(Censored, ReadingsBelowAFloorAreReplacedByTheirExpectation) {
   EXPECT_NEAR(slope(imputed(read, bounds, design, 40)), -15, 0.4);
 }
 
+// Readings below a level are not there at all: what is left looks too flat.
+TEST(Truncated, ReadingsBecomeThoseOfTheirRankAmongAll) {
+  const double floor = -62;
+  std::vector<double> at, heard;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    const double u = Stream(21).uniform(i), level = -50 - 15 * u + 4 * Stream(22).normal(i);
+    if (level < floor) continue;
+    at.push_back(u);
+    heard.push_back(level);
+  }
+  const auto n = static_cast<Index>(heard.size());
+  const Eigen::VectorXd read = Eigen::Map<const Eigen::VectorXd>(heard.data(), n);
+  Eigen::MatrixXd design(n, 2);
+  design << Eigen::VectorXd::Ones(n), Eigen::Map<const Eigen::VectorXd>(at.data(), n);
+  Bounds bounds{{}, 0, Eigen::VectorXd::Constant(n, floor)};
+  const Basis basis = basis_of(design);
+  const auto fitted = [&](const Eigen::VectorXd& y) { return basis.coefficients(basis.q.transpose() * y, 2); };
+  const Eigen::VectorXd filled = imputed(read, bounds, design, 60);
+  EXPECT_GT(fitted(read)[1], -13.5);
+  EXPECT_NEAR(fitted(filled)[0], -50, 0.2);
+  EXPECT_NEAR(fitted(filled)[1], -15, 0.4);
+  EXPECT_NEAR(std::sqrt(basis.rest(filled).squaredNorm() / static_cast<double>(n)), 4, 0.1);
+  // Each keeps its place among those of one mean, and those far above the floor their value.
+  EXPECT_EQ((filled - read).maxCoeff() > 1e-6, false);
+  EXPECT_NEAR(filled[std::distance(heard.begin(), std::max_element(heard.begin(), heard.end()))],
+              *std::max_element(heard.begin(), heard.end()), 1e-2);
+}
+
 TEST(Bounds, AreMissedByTheDistanceFromWhatTheyAllow) {
   const Bounds bounds{{Known::value, Known::below, Known::above}, 0.5};
   EXPECT_EQ(bounds.error(0, -60, -57), 3);
