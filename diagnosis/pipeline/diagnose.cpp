@@ -53,8 +53,8 @@ class Diagnoser {
  public:
   // Laws of the cause `without_law` are not tested.
   Diagnoser(const std::filesystem::path& world, const std::filesystem::path& file, const Library::SearchPath& plugins,
-            const std::shared_ptr<TableCache>& tables, const inference::Watch& watch,
-            const Earlier& earlier = {}, const std::string& without_law = "")
+            const std::shared_ptr<TableCache>& tables, const inference::Watch& watch, const Earlier& earlier = {},
+            const std::string& without_law = "")
       : watch_(watch),
         setup_(world, file, plugins, tables, earlier),
         moved_(setup_.model),
@@ -300,8 +300,9 @@ struct Diagnosed {
     first.causes[0].put_right_first = true;
     for (const auto& [path, value] : verdict.parameters) first.parameters[path] = value;
     const TemporaryFolder folder;
-    Diagnosis out = Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {{}, end})
-                        .run(&first, by_itself);
+    Diagnosis out =
+        Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {{}, end})
+            .run(&first, by_itself);
     if (found.unseen && out.unseen &&
         out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
       return {};

@@ -10,8 +10,8 @@ void add_clips(const LawSources& sources, Diagnosis& found);
 // Tests for a silent floor beside the causes found: errors of the given world may hide it. `mean`, dBm: readings
 // expected of the extended world. True if it is named.
 bool add_silence_beside(const LawSources& sources, const Eigen::VectorXd& mean, Diagnosis& found);
-// Tests for a silent floor where the table tells of no reading that is missing: what was heard may end there. True if it
-// is named.
+// Tests for a silent floor where the table tells of no reading that is missing: what was heard may end there. True if
+// it is named.
 bool add_truncation(const LawSources& sources, Diagnosis& found);
 // Level below which an instance of this world lets nothing through, dBm.
 std::optional<double> silent_below(const Simulation& simulation);
