@@ -37,8 +37,12 @@ double gain_of_rows(const inference::ModelState& state, const noise::StatedField
   };
   const double size = near(fitted.shadowing, stated.shadowing);
   const double distance = near(fitted.decorrelation, stated.decorrelation);
+  std::vector<noise::Family> families = state.field().families();
+  // What readings of one place have in common beside the field, such as multipath, would shorten its distance.
+  const std::vector<noise::Family> fixed = state.field().fixed_families();
+  families.insert(families.end(), fixed.begin(), fixed.end());
   double held = 1e300;
-  for (const noise::Family family : state.field().families()) {
+  for (const noise::Family family : families) {
     for (const double start : {-0.7, 0.0, 0.7}) {  // offset of the log variance of one reading from the fitted one
       noise::Covariance at = as_stated({size, distance}, family, free.covariance.theta, state.within());
       at.theta[2] += start;
