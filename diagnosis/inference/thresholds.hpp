@@ -46,6 +46,9 @@ inline constexpr double replacing_share = 0.9;
 // share; of the gain of several pieces that one object explains to replace them; chosen;
 // MergeDuplicates.TwoSeparateWallsRemainTwo
 inline constexpr double merge_share = 0.93;
+// share; of the gain of all terms of one name on one row, at which the one that explains it keeps the name; chosen;
+// BackwardElimination.OfTwoOfOneNameTheOneThatLeadsKeepsIt
+inline constexpr double leading_share = 0.7;
 // terms; of one model; chosen; none
 inline constexpr int most_terms = 6;
 // nats; by which a family may be behind the best one; chosen; none

@@ -143,8 +143,8 @@ Hypotheses hypotheses_of(const DiagnosisSetup& setup, const std::vector<MappedWa
     const auto rows = rows_for(cause, setup.model, geometry);
     std::string why = why_not(cause, geometry, setup.data);
     if (why.empty() && rows.empty()) why = why_no_rows(cause);
-    if (why.empty() && !with_flag(cause, MUSTER_EAST).empty() && geometry.standing.size() < thresholds::fewest_standing &&
-        walls.empty())
+    if (why.empty() && !with_flag(cause, MUSTER_EAST).empty() &&
+        geometry.standing.size() < thresholds::fewest_standing && walls.empty())
       why = "not testable: a plan without walls shows how it is turned by three radios that stand";
     if (why.empty()) add_cause(cause, rows, places, result.all);
     if (!cause.needs_own_world()) continue;

@@ -190,18 +190,34 @@ void withdraw_names_beside_smooths(ModelState& state) {
   }
 }
 
-bool named_twice(const ModelState& state, const Term& term) {
+// True for terms that give one name to one row, if it is no place.
+bool same_name(const Term& term, const Term& other) {
   const auto name = [](const Term& t) { return std::pair(t.candidate->id, t.candidate->label_of(t.theta)); };
-  return !term.smooth() && term.candidate->role.pieces.empty() &&
-         std::count_if(state.terms.begin(), state.terms.end(),
-                       [&](const Term& other) { return name(other) == name(term); }) > 1;
+  return !term.smooth() && !other.smooth() && term.candidate->role.pieces.empty() && name(other) == name(term);
 }
 
-// Withdraws a cause named twice on the same row, if it is no place: neither is right.
+// True if a term alone explains most of what all terms of its name do: the others are what its linear effect leaves
+// over, such as that of a radio's place beside losses of walls that are not yet right.
+bool leads_its_like(const ModelState& state, const Term& term) {
+  const auto alike = [&](const Term& other) { return same_name(term, other); };
+  Eigen::MatrixXd columns(state.rows().size(), 0);
+  for (const Term& other : state.terms) {
+    if (alike(other)) columns = noise::hstack(columns, other.columns);
+  }
+  const WhitenedModel model = state.whitened_model(state.design(alike));
+  return gain_of(*term.candidate, model, term.columns) > thresholds::leading_share * model.gain(columns);
+}
+
+// Withdraws a cause named twice on the same row, but for one that leads: else neither is right.
 void withdraw_names_given_twice(ModelState& state) {
-  std::vector<bool> twice;
-  for (const Term& term : state.terms) twice.push_back(named_twice(state, term));
-  for (std::size_t k = 0; k < state.terms.size(); ++k) state.terms[k].as_smooth = state.terms[k].as_smooth || twice[k];
+  std::vector<bool> withdrawn;
+  for (const Term& term : state.terms) {
+    const bool twice = std::count_if(state.terms.begin(), state.terms.end(),
+                                     [&](const Term& other) { return same_name(term, other); }) > 1;
+    withdrawn.push_back(twice && !leads_its_like(state, term));
+  }
+  for (std::size_t k = 0; k < state.terms.size(); ++k)
+    state.terms[k].as_smooth = state.terms[k].as_smooth || withdrawn[k];
 }
 
 // Withdraws a name if much structure is left along its own covariate: it is only a part of the effect.

@@ -58,6 +58,22 @@ TEST(BackwardElimination, PrefersADriftToABendOfTheBatteryOnlyWhereItIsLikelier)
   }
 }
 
+// Levels that fall twice are no one step. Where one of the two is most of it, the other is what is left over.
+TEST(BackwardElimination, OfTwoOfOneNameTheOneThatLeadsKeepsIt) {
+  const auto world = world_of(varied(254, 3000));
+  const double last = world.time.maxCoeff(), first = 0.3 * last, second = 0.7 * last;
+  const auto step = [&](double at) -> Eigen::VectorXd { return (world.time.array() > at).cast<double>(); };
+  for (const double size : {0.4, -1.0}) {
+    const Problem problem =
+        problem_of(world, scaled_to(world, step(first) + size * step(second), 600), causes_of(world));
+    const std::vector<Term> terms =
+        terms_left(problem, {{"step", Eigen::Vector2d(first, -1)}, {"step", Eigen::Vector2d(second, -1)}});
+    ASSERT_EQ(terms.size(), 2u);
+    EXPECT_EQ(terms[0].id(), size > 0 ? "step" : "~time");
+    EXPECT_EQ(terms[1].id(), "~time");
+  }
+}
+
 // Censors the strongest reading and all close to it.
 Problem clipped(Problem problem) {
   const double top = problem.measured.maxCoeff() - 8;
