@@ -210,6 +210,8 @@ inline constexpr double alike_share = 0.25;
 inline constexpr double lasting = 3;
 // m; within which two readings of a link are of one place; chosen; none
 inline constexpr double repeats_within = 1e-3;
+// readings; of one link and place, whose median tells the level there; chosen; none
+inline constexpr std::size_t repeats_that_tell = 5;
 // share; of readings that repeat a place where a network stands; chosen; Survey.OutliersInANetworkThatStands
 inline constexpr double repeated_share = 0.9;
 // probability; of a false fading law or blockage in a clean world; chosen; CleanCase.IsSilent

@@ -18,6 +18,46 @@ using Eigen::VectorXd;
 
 Index tested(const VectorXd& residual) { return residual.array().isFinite().count(); }
 
+namespace {
+
+// Expected level of a reading, and the standard deviation of what may lie beside it, dB.
+struct ExpectedLevels {
+  VectorXd mean, sd;
+};
+
+// Where a place is measured again and again, its readings tell the level there, of which the model knows the mean only.
+ExpectedLevels expected_levels(const LawSources& s, const Diagnosis& found) {
+  const noise::Covariance& fit = s.state.fit.covariance;
+  const LinkReadings& r = s.readings;
+  const auto n = static_cast<Index>(s.used.size());
+  ExpectedLevels result{VectorXd(found.mean(s.used)),
+                        VectorXd::Constant(n, std::sqrt(fit.field_variance() + fit.reading_variance()))};
+  std::map<std::vector<long>, std::vector<Index>> of_place;  // by link and places
+  for (Index i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    std::vector<long> place{r.tx[k], r.rx[k]};
+    for (const Eigen::Matrix3Xd* ends : {&r.tx_at, &r.rx_at}) {
+      for (const double at : ends->col(i)) place.push_back(std::lround(at / thresholds::repeats_within));
+    }
+    of_place[place].push_back(i);
+  }
+  for (const auto& [place, readings] : of_place) {
+    if (readings.size() < thresholds::repeats_that_tell) continue;
+    std::vector<double> off;
+    for (const Index i : readings)
+      off.push_back(s.data.rssi[static_cast<std::size_t>(s.used[static_cast<std::size_t>(i)])] - result.mean[i]);
+    if (std::any_of(off.begin(), off.end(), [](double v) { return std::isnan(v); })) continue;
+    std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+    for (const Index i : readings) {
+      result.mean[i] += off[off.size() / 2];
+      result.sd[i] = std::sqrt(fit.reading_variance());
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const noise::Rows& rows = s.state.rows();
   VectorXd left(static_cast<Index>(s.used.size()));
@@ -29,14 +69,14 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
   if (!s.state.problem().bounds.any()) return result;
-  const double sd = std::sqrt(s.state.fit.covariance.field_variance() + s.state.fit.covariance.reading_variance());
-  const auto near = [&](const std::optional<Clip>& clip, double side, double mean) {
-    return clip && side * (clip->level - mean) < thresholds::near_clip * sd;
-  };
+  const ExpectedLevels expected = expected_levels(s, found);
   for (Index i = 0; i < result.size(); ++i) {
-    const double mean = found.mean[s.used[static_cast<std::size_t>(i)]];
-    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < thresholds::near_clip * sd;
-    if (lost || near(found.receiver.top, 1, mean) || near(found.receiver.bottom, -1, mean)) result[i] = std::nan("");
+    const double reach = thresholds::near_clip * expected.sd[i], mean = expected.mean[i];
+    const auto near = [&](const std::optional<Clip>& clip, double side) {
+      return clip && side * (clip->level - mean) < reach;
+    };
+    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < reach;
+    if (lost || near(found.receiver.top, 1) || near(found.receiver.bottom, -1)) result[i] = std::nan("");
   }
   return result;
 }
