@@ -61,6 +61,12 @@ struct Likelihood {
   noise::Covariance noise{};
 };
 
+// Numbers that a fault needs, beside choices and rows of the world.
+std::ptrdiff_t numbers_of(const muster_plugin& plugin) {
+  return std::count_if(plugin.params, plugin.params + plugin.param_count,
+                       [](const muster_param& p) { return p.kind == MUSTER_REAL || p.kind == MUSTER_INTEGER; });
+}
+
 class Judge {
  public:
   Judge(DiagnosisSetup& setup, const Diagnosis& found) : s_(setup), found_(found), moved_(setup.model) {
@@ -342,7 +348,7 @@ class Judge {
     const auto simpler = [&](const Judged& a, const Judged& b) {
       const auto rank = [&](const Judged& j) {
         return std::tuple(j.evidence < most - even, j.world.hypothesis.cause->needs_own_world(),
-                          j.world.hypothesis.cause->plugin->param_count, j.world.hypothesis.number);
+                          numbers_of(*j.world.hypothesis.cause->plugin), j.world.hypothesis.number);
       };
       return rank(a) < rank(b);
     };

@@ -114,6 +114,17 @@ TEST(LabelsShifted, ASilentRadioHasItsLine) {
   EXPECT_TRUE(same_bits(shifted, column(truth.world(silent), "link/*/rssi")));
 }
 
+// By names the order is a, a2, a10, b, in the world a, b, a2, a10.
+TEST(LabelsShifted, ByNamesTheOrderIsThatOfAListOfPeople) {
+  const std::string silent = "<station name=\"a2\" at=\"7 3 1.5\"/><station name=\"a10\" at=\"5 3 1.5\"/>";
+  const auto shifted = [&](const std::string& how) {
+    return column(Site().world(effect("labels_shifted", "first=\"a2\"" + how) + silent), "link/*/rssi");
+  };
+  const Site truth(moved(moved(survey(), "b", {0, 0, 1, 0.5}), "a", {7, 3, 1.5, 0}));
+  EXPECT_TRUE(same_bits(shifted(" order=\"names\""), column(truth.world(silent), "link/*/rssi")));
+  EXPECT_FALSE(same_bits(shifted(" order=\"names\""), shifted("")));
+}
+
 std::vector<double> turned(const std::string& of, const std::string& how) {
   const std::string attributes = "of=\"" + of + "\" how=\"" + how + "\" x=\"6\" y=\"2\"";
   return column(Site().world(effect("plan_turned", attributes), true), "link/*/level");
