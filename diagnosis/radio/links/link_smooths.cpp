@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "diagnosis/data/recorded_time.hpp"
 #include "diagnosis/radio/links/moving_end.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -59,6 +61,21 @@ void add_covariate(const inference::Covariate& c, const Geometry& geometry, bool
   if (places_known) out.push_back(inference::product_over(c.name, c.values, "position", geometry.moving.place));
 }
 
+// Over the directions from one transmitter at a time, of those seen in more directions than determine the functions: from
+// a radio of a standing network its few links would be fitted one by one.
+void add_directions(const LinkReadings& readings, const Geometry& geometry, std::vector<Candidate>& out) {
+  constexpr int harmonics = 3;
+  std::map<int, std::set<long>> seen;  // of each transmitter
+  for (std::size_t i = 0; i < readings.tx.size(); ++i)
+    seen[readings.tx[i]].insert(std::lround(geometry.from_tx[static_cast<Index>(i)] / thresholds::one_direction));
+  Candidate c =
+      inference::smooth_by_level("txbearing", readings.tx, inference::harmonics_of(geometry.from_tx, harmonics));
+  std::erase_if(c.design.grid, [&](const Eigen::VectorXd& theta) {
+    return seen.at(static_cast<int>(theta[0])).size() < std::size_t{4} * harmonics;
+  });
+  if (!c.design.grid.empty()) out.push_back(std::move(c));
+}
+
 }  // namespace
 
 std::vector<Candidate> link_smooths(const LinkReadings& readings, const LinkColumns& columns, bool places_known) {
@@ -71,8 +88,7 @@ std::vector<Candidate> link_smooths(const LinkReadings& readings, const LinkColu
     result.push_back(inference::smooth_of_angle("heading", geometry.moving.heading, 3));
   }
   if (places_known) {
-    result.push_back(
-        inference::smooth_by_level("txbearing", readings.tx, inference::harmonics_of(geometry.from_tx, 3)));
+    add_directions(readings, geometry, result);
     result.push_back(inference::smooth_over("position", geometry.moving.place));
     result.push_back(inference::slope_over("position", geometry.moving.place));
   }

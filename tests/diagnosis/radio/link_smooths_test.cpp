@@ -41,6 +41,24 @@ TEST(LinkSmooths, CoverEveryColumnFactorAndProduct) {
     EXPECT_EQ(ids.count(id), 1u) << id;
 }
 
+// Each transmitter of a network that stands has eight links or so: six functions of the direction would fit them one by
+// one, however often they are measured.
+TEST(LinkSmooths, OverDirectionsAreOfTransmittersThatSeeManyOnly) {
+  const auto world = world_of(varied(4, 400));
+  LinkReadings standing = world.readings;
+  for (Eigen::Index i = 0; i < standing.size(); ++i) {
+    standing.tx[static_cast<std::size_t>(i)] = i % 2 == 0 ? 0 : 1;
+    if (i % 2 == 0) standing.rx_at.col(i) = standing.tx_at.col(i) + Eigen::Vector3d(1 + static_cast<double>(i % 16), 3, 0);
+  }
+  for (const Candidate& c : link_smooths(standing, {}, true)) {
+    if (c.id != "~txbearing") continue;
+    ASSERT_EQ(c.design.grid.size(), 1u);
+    EXPECT_EQ(c.design.grid[0][0], 1);
+    return;
+  }
+  FAIL() << "no directions";
+}
+
 // Time always varies: an observed column that explains as much comes before a function of time.
 TEST(LinkSmooths, OnlyThoseOfTimeAreTimeLike) {
   const auto world = world_of(varied(4, 400));
