@@ -92,13 +92,13 @@ std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws
   };
 }
 
-// A table that tells of readings that are missing keeps them as bounds instead. Where all readings are stronger than
-// what the world's receiver can hear, they end nowhere.
+// A table that tells of readings that are missing keeps them as bounds instead. Readings that are all stronger than
+// what the world's receiver can hear end nowhere, and those of a better receiver end elsewhere.
 std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
   if (at.fitted.missing.count > 0) return {};
   const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation());
   const double weakest = *std::min_element(at.data.rssi.begin(), at.data.rssi.end());
-  return level && weakest <= *level + thresholds::reaches_a_floor ? level : std::nullopt;
+  return level && std::abs(weakest - *level) <= thresholds::reaches_a_floor ? level : std::nullopt;
 }
 
 inference::Problem problem_of(const DiagnosisSetup& at) {

@@ -24,8 +24,8 @@ inline constexpr double row_turn = 0.6109;
 inline constexpr double row_way = 1.0;
 // dB; change of the expected level at which a row ends; chosen; LinkRows.EndWhereAWallChangesTheLevel
 inline constexpr double row_level = 1.5;
-// rad; within which a transmitter sees two places in one direction; chosen; none
-inline constexpr double one_direction = 0.01;
+// m; within which a transmitter is heard at one place; chosen; none
+inline constexpr double one_receiver_place = 0.1;
 // rows; up to which rows are shorter than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows
 inline constexpr Eigen::Index short_rows = 4000;
 // rows; beyond which rows are longer than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows

@@ -61,17 +61,19 @@ void add_covariate(const inference::Covariate& c, const Geometry& geometry, bool
   if (places_known) out.push_back(inference::product_over(c.name, c.values, "position", geometry.moving.place));
 }
 
-// Over the directions from one transmitter at a time, of those seen in more directions than determine the functions: from
-// a radio of a standing network its few links would be fitted one by one.
+// Over the directions from one transmitter at a time, of those heard at more places than determine the functions: the
+// few links of a radio in a standing network would be fitted one by one.
 void add_directions(const LinkReadings& readings, const Geometry& geometry, std::vector<Candidate>& out) {
   constexpr int harmonics = 3;
-  std::map<int, std::set<long>> seen;  // of each transmitter
-  for (std::size_t i = 0; i < readings.tx.size(); ++i)
-    seen[readings.tx[i]].insert(std::lround(geometry.from_tx[static_cast<Index>(i)] / thresholds::one_direction));
+  std::map<int, std::set<std::pair<long, long>>> places;  // of each transmitter's receivers
+  for (std::size_t i = 0; i < readings.tx.size(); ++i) {
+    const Eigen::Vector2d at = readings.rx_at.col(static_cast<Index>(i)).head<2>() / thresholds::one_receiver_place;
+    places[readings.tx[i]].insert({std::lround(at[0]), std::lround(at[1])});
+  }
   Candidate c =
       inference::smooth_by_level("txbearing", readings.tx, inference::harmonics_of(geometry.from_tx, harmonics));
   std::erase_if(c.design.grid, [&](const Eigen::VectorXd& theta) {
-    return seen.at(static_cast<int>(theta[0])).size() < std::size_t{4} * harmonics;
+    return places.at(static_cast<int>(theta[0])).size() < std::size_t{4} * harmonics;
   });
   if (!c.design.grid.empty()) out.push_back(std::move(c));
 }

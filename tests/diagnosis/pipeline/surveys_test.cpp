@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string>
 
 #include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/pipeline/setup.hpp"
 #include "tests/diagnosis/pipeline/flat.hpp"
 
 namespace muster::diagnosis {
@@ -61,6 +65,24 @@ TEST(Survey, ATableOfWhatWasHeardEndsAtAFloor) {
   ASSERT_NE(floor, found.causes.end());
   EXPECT_EQ(floor->values.at(0).value, -70);
   EXPECT_NEAR(found.parameters.at("radio.multiwall/n"), 2, 0.15);
+}
+
+// The weakest of its readings is -70 dBm. A receiver of the world that hears less says nothing, and one that hears less
+// well is another one than that of the log: two gateways that read 15 dB low were lost in what was made of it.
+TEST(Survey, ReadingsEndAtTheWorldsFloorOnlyIfTheyReachIt) {
+  const Scratch scratch;
+  const auto folder = made_case(scratch, "--generator field --seed 91318", 8);
+  const std::string world = contents(folder / "world.xml");
+  const std::string any = "sensitivity=\"-200\"";
+  const auto end_with = [&](const std::string& sensitivity) {
+    std::string other = world;
+    other.replace(other.find(any), any.size(), "sensitivity=\"" + sensitivity + '"');
+    std::ofstream(folder / "other.xml") << other;
+    return DiagnosisSetup(folder / "other.xml", folder / "measured.csv", plugins).end;
+  };
+  EXPECT_EQ(end_with("-70"), -70);
+  EXPECT_EQ(end_with("-75"), std::nullopt);
+  EXPECT_EQ(end_with("-60"), std::nullopt);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(LinkSmooths, OverDirectionsAreOfTransmittersThatSeeManyOnly) {
   LinkReadings standing = world.readings;
   for (Eigen::Index i = 0; i < standing.size(); ++i) {
     standing.tx[static_cast<std::size_t>(i)] = i % 2 == 0 ? 0 : 1;
-    if (i % 2 == 0) standing.rx_at.col(i) = standing.tx_at.col(i) + Eigen::Vector3d(1 + static_cast<double>(i % 16), 3, 0);
+    if (i % 2 == 0) standing.rx_at.col(i) << static_cast<double>(i % 16), 3, 0;
   }
   for (const Candidate& c : link_smooths(standing, {}, true)) {
     if (c.id != "~txbearing") continue;
