@@ -1,6 +1,7 @@
 #include "diagnosis/data/recorded_time.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "diagnosis/data/thresholds.hpp"
 
@@ -13,16 +14,24 @@ struct Pauses {
   std::size_t count;
 };
 
+// True if the steps from the k-th of the sorted ones on are those from one snapshot to the next.
+bool is_schedule(const std::vector<double>& steps, std::size_t k) {
+  return steps.size() - k >= thresholds::fewest_snapshots && steps.back() <= thresholds::regular_steps * steps[k];
+}
+
 Pauses pauses_of(std::vector<double> steps) {
   std::sort(steps.begin(), steps.end());
   double sum = 0;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const bool most_are_shorter = steps.size() >= thresholds::fewest_steps && 2 * k >= steps.size();
-    if (most_are_shorter && steps[k] > thresholds::shortest_pause && steps[k] > sum)
+    if (most_are_shorter && steps[k] > thresholds::shortest_pause && steps[k] > sum) {
+      if (is_schedule(steps, k)) break;
       return {steps[k], sum, steps.size() - k};
+    }
     sum += steps[k];
   }
-  return {sum + 1, sum, 0};
+  const double all = std::accumulate(steps.begin(), steps.end(), 0.0);
+  return {all + 1, all, 0};
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ class RecordedTime {
   RecordedTime() = default;
   RecordedTime(const Span& span) : knots_{{span.low, 0}, {span.high, span.length()}} {}  // without pauses
   // A pause is a step of more than ten minutes that exceeds the sum of all shorter steps. All pauses together take a
-  // tenth of the recorded time.
+  // tenth of the recorded time. Many such steps of about one length are no pauses but a schedule: a network that is
+  // asked every hour is recorded through all of its days.
   explicit RecordedTime(std::vector<double> times);
 
   bool has_pauses() const { return knots_.size() > 2; }

@@ -52,6 +52,11 @@ inline constexpr double wild_ranges = 100;
 inline constexpr double shortest_pause = 600;
 // steps; between times, fewest that show a pause; chosen; none
 inline constexpr std::size_t fewest_steps = 10;
+// steps; of about one length, from snapshot to snapshot, fewest that are no pauses; chosen;
+// RecordedTime.AScheduleOfSnapshotsHasNoPauses
+inline constexpr std::size_t fewest_snapshots = 10;
+// factor; by which steps of a schedule differ at most; chosen; RecordedTime.AScheduleOfSnapshotsHasNoPauses
+inline constexpr double regular_steps = 2;
 // share; of the recorded time that all pauses take together in grids; chosen; RecordedTime.ShortensAPauseOfAYear
 inline constexpr double share_of_pauses = 0.1;
 

@@ -105,5 +105,20 @@ TEST(RecordedTime, KeepsEvenStepsAndShortBreaks) {
   }
 }
 
+// Every hour a few readings within a second, for three days: a day's course is sought over all of them.
+TEST(RecordedTime, AScheduleOfSnapshotsHasNoPauses) {
+  std::vector<double> daily, now_and_then;
+  for (int k = 0; k < 72; ++k) {
+    for (const double soon : {0.0, 0.1, 0.3, 0.7}) {
+      daily.push_back(3600.0 * k + 60 * (k % 3) + soon);
+      now_and_then.push_back(3600.0 * k + (k > 30 ? 1e7 : 0) + soon);
+    }
+  }
+  const RecordedTime time(daily);
+  EXPECT_FALSE(time.has_pauses());
+  EXPECT_DOUBLE_EQ(time.length(), daily.back() - daily.front());
+  EXPECT_TRUE(RecordedTime(now_and_then).has_pauses());  // half a year between two campaigns
+}
+
 }  // namespace
 }  // namespace muster::diagnosis
