@@ -127,6 +127,14 @@ Eigen::VectorXd white_errors(const noise::Whitener& whitener, const Eigen::Matri
   return result;
 }
 
+// True if the other parts know the term's size, too: what lies in one of them alone is not foretold by the rest.
+bool known_elsewhere(const Term& term, const std::vector<int>& parts) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(*std::max_element(parts.begin(), parts.end()) + 1);
+  for (Index i = 0; i < term.columns.rows(); ++i)
+    squares[parts[static_cast<std::size_t>(i)]] += term.columns.row(i).squaredNorm();
+  return squares.maxCoeff() < thresholds::most_in_one_part * squares.sum();
+}
+
 std::optional<std::size_t> refuted_at_places(const ModelState& state, KeptFolds& kept) {
   const std::vector<int> blocks = blocks_of(state);
   const Folds& folds = kept.of(state, blocks);
@@ -152,6 +160,7 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state, KeptFolds&
   const HeldOutGain all = folds.compared(base, full);
   const auto without = [&](std::size_t one) { return errors.without(one); };
   return worst_of(state, full, without, [&](std::size_t one) {
+    if (!known_elsewhere(state.terms[one], blocks)) return false;
     const Eigen::VectorXd before = without(one);
     const HeldOutGain gain = folds.compared(before, full);
     if (grows(one, gain, before) || grows(one, all, base)) return true;

@@ -36,8 +36,10 @@ double of_same_rank(double z, double end) {
 }  // namespace
 
 bool Bounds::any() const {
-  return end.size() > 0 || std::any_of(known.begin(), known.end(), [](Known k) { return k != Known::value; });
+  return std::any_of(known.begin(), known.end(), [](Known k) { return k != Known::value; });
 }
+
+bool Bounds::changes() const { return any() || end.size() > 0; }
 
 double Bounds::lowest(std::size_t i, double reading) const {
   if (!is_bound(i)) return reading;
@@ -56,7 +58,7 @@ double Bounds::error(std::size_t i, double reading, double level) const {
 Eigen::VectorXd imputed(const Eigen::VectorXd& readings, const Bounds& bounds, const Eigen::MatrixXd& design,
                         int rounds) {
   Eigen::VectorXd filled = readings;
-  if (!bounds.any()) return filled;
+  if (!bounds.changes()) return filled;
   const Basis basis = basis_of(design);
   double unknown = 0;  // sum of variances of imputed readings
   for (int round = 0; round < rounds; ++round) {

@@ -18,7 +18,8 @@ struct Bounds {
   double half_code = 0.5;    // units of a reading: a bound's code covers levels up to half a step beyond it
   Eigen::VectorXd end{};     // of each reading, the level below which it would be missing; empty: none would
 
-  bool any() const;
+  bool any() const;      // is one of them a bound?
+  bool changes() const;  // are readings imputed?
   // The range in which the level of a reading lies.
   double lowest(std::size_t i, double reading) const;
   double highest(std::size_t i, double reading) const;

@@ -172,7 +172,7 @@ Eigen::VectorXd ModelState::mean_of_readings() const {
 
 void ModelState::impute(int rounds) {
   measured_ = noise::imputed(problem_.measured, problem_.bounds,
-                             problem_.bounds.any() ? design_of_readings() : problem_.base, rounds);
+                             problem_.bounds.changes() ? design_of_readings() : problem_.base, rounds);
   y_ = rows_.mean(measured_);
 }
 

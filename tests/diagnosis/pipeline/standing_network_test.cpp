@@ -85,6 +85,13 @@ TEST(Survey, OutliersInANetworkThatStands) {
   EXPECT_EQ(found.causes[0].id, "effect.outliers");
 }
 
+TEST(Survey, AStepOfOneSenderInANetworkThatStands) {
+  const Diagnosis found = diagnosed(R"(<effect.tx_step radio="e" at="41" size="-3"/>)");
+  ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
+  EXPECT_EQ(found.causes[0].id, "effect.tx_step");
+  EXPECT_EQ(found.causes[0].row, "e");
+}
+
 // Memory that nobody wrote holds what was there before: a smooth of time with many functions had made the held-out
 // error read some.
 TEST(Survey, IsTheSameWhateverMemoryHeldBefore) {
