@@ -147,6 +147,12 @@ struct UnstatedField {
   double reading_sd = 0;                    // dB, of single readings about it
 };
 
+// Readings that scatter more or less than those that the world draws.
+struct OtherScatter {
+  double measured = 0;         // dB, about the fitted world
+  double least = 0, most = 0;  // dB, of the world's own draws
+};
+
 struct Diagnosis {
   // What lowers the error at left-out places most comes first, laws of readings after that, suspected causes last.
   std::vector<CauseEstimate> causes;
@@ -159,6 +165,7 @@ struct Diagnosis {
   double residual_sd = 0;   // dB, of the fitted world
   noise::Covariance noise;
   std::optional<UnstatedField> unstated_field;
+  std::optional<OtherScatter> other_scatter;  // sought where nothing else was found
   std::optional<inference::HeldOutGain> held_out;
   std::optional<inference::Unseen> unseen;      // held-out errors behind held_out, in the order of `used`
   std::vector<inference::Elsewhere> elsewhere;  // the same on held-out radios and runs, if there are several

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
@@ -254,6 +255,7 @@ class Diagnoser {
     add_laws(sources, out);
     if (out.causes.size() > before) extend(state, out);  // a fading law changes the mean
     in_order(out);
+    if (std::string_view(out.verdict()) == "adequate") out.other_scatter = other_scatter(setup_);
   }
 
   VectorXd measured(const inference::ModelState& state) const {

@@ -1,7 +1,10 @@
 #include "diagnosis/pipeline/unstated_field.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -49,6 +52,28 @@ std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const infe
       drawn_by_the_world(at, state, noise) > thresholds::drawn_field_share * field.shadowing)
     return {};
   return UnstatedField{field.shadowing, field.decorrelation, std::sqrt(noise.reading_variance())};
+}
+
+std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at) {
+  // Beside the world's own parameters, fitted to each: a field that is wide is not to be told from them.
+  const noise::Basis own = noise::basis_of(at.base.slopes(at.used.rows, Eigen::all));
+  const auto scatter = [&](const VectorXd& all) {
+    const VectorXd errors = all(at.used.rows);
+    const auto heard = errors.array().isFinite().eval();
+    return std::sqrt(own.rest(heard.select(errors, 0).matrix()).squaredNorm() /
+                     std::max<double>(1, static_cast<double>(heard.count())));
+  };
+  OtherScatter result{scatter(at.fitted.readings.rssi - at.fitted.mean), std::numeric_limits<double>::infinity(), 0};
+  for (int k = 0; k < thresholds::runs_of_scatter; ++k) {
+    const WorldDraw draw = at.draws.draw(static_cast<uint64_t>(k), {}, {});
+    const double drawn = scatter(draw.drawn - draw.expected);
+    result.least = std::min(result.least, drawn);
+    result.most = std::max(result.most, drawn);
+    const bool within = result.measured > result.least / thresholds::other_scatter &&
+                        result.measured < result.most * thresholds::other_scatter;
+    if (within || result.least < thresholds::least_stated_scatter) return {};
+  }
+  return result;
 }
 
 }  // namespace muster::diagnosis

@@ -1,4 +1,4 @@
-// A field that readings share and that the world does not state.
+// What the world says of the scatter of readings, and what they do: a field that it does not state, or another scatter.
 #pragma once
 
 #include "diagnosis/inference/state/model_state.hpp"
@@ -12,5 +12,9 @@ namespace muster::diagnosis {
 // places, too.
 std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const inference::ModelState& state,
                                             const noise::Covariance& noise);
+// The scatter of the readings about the fitted world, where it lies far outside that of the world's own draws;
+// nothing where the world draws none. The laws of single readings may not be testable, and shadowing may pass for the
+// noise of readings that never repeat a place: all of it together is always seen.
+std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at);
 
 }  // namespace muster::diagnosis

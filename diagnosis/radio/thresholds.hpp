@@ -85,6 +85,13 @@ inline constexpr int runs_for_a_field = 3;
 // share; of the field found that these may have for it to be the world's own; chosen;
 // SimulatedDraws.MultipathOfTheWorldIsNoUnstatedField
 inline constexpr double drawn_field_share = 0.6;
+// runs; of the world, whose scatter is compared with that of readings; chosen; none
+inline constexpr int runs_of_scatter = 20;
+// factor; beyond the range of these runs, from which readings scatter otherwise; chosen;
+// OwnDraws.ScatterAsTheWorldSays
+inline constexpr double other_scatter = 1.2;
+// dB; of the world's own draws, from which it says how readings scatter; chosen; none
+inline constexpr double least_stated_scatter = 0.5;
 // gaps; the longest ones that are pauses of a run, not its sampling; chosen;
 // MeasurementGeometry.KnowsAScheduleOfSnapshots
 inline constexpr std::size_t longest_pauses = 3;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "diagnosis/inference/thresholds.hpp"
+#include "diagnosis/report/checked.hpp"
 
 namespace muster::report {
 namespace {
@@ -56,6 +57,11 @@ std::string covariates_of(const Diagnosis& d) {
   for (std::size_t k = 0; k < words.size(); ++k)
     list += (k == 0 ? "" : k + 1 == words.size() ? " and on " : ", on ") + words[k];
   return list;
+}
+
+std::string scatter_in_words(const diagnosis::OtherScatter& scatter) {
+  return fmt::format("readings scatter by {:.1f} dB, where the world says {:.1f} to {:.1f} dB", scatter.measured,
+                     scatter.least, scatter.most);
 }
 
 std::string field_in_words(const diagnosis::UnstatedField& field) {
@@ -235,6 +241,14 @@ std::string chance(double log_p) {
 
 namespace {
 
+// The check of the smallest p, where that is smaller than chance yields in a thousand diagnoses; null if none is.
+const inference::Check* nearest_to_a_name(const Diagnosis& d) {
+  const auto least =
+      std::min_element(d.checks.begin(), d.checks.end(),
+                       [](const inference::Check& a, const inference::Check& b) { return a.log_p < b.log_p; });
+  return least != d.checks.end() && least->log_p < std::log(1e-5) ? &*least : nullptr;
+}
+
 std::string whole_verdict(const Diagnosis& d) {
   const int confirmed = count_of(d, Confidence::confirmed), unconfirmed = count_of(d, Confidence::unconfirmed);
   const std::string causes = causes_in_words(confirmed + unconfirmed);
@@ -250,9 +264,15 @@ std::string whole_verdict(const Diagnosis& d) {
   if (confirmed + unconfirmed == 0 && d.interrupted)
     return "is not judged: the search was interrupted, and nothing had been found";
   if (confirmed + unconfirmed == 0 && d.unstated_field) return "is not adequate: " + field_in_words(*d.unstated_field);
-  if (confirmed + unconfirmed == 0)
-    return count_of(d, Confidence::set_aside) ? "is adequate: what stands out is not beyond chance, a suspicion remains"
-                                              : "is adequate: nothing was found beyond chance";
+  if (confirmed + unconfirmed == 0 && d.other_scatter) return "is not adequate: " + scatter_in_words(*d.other_scatter);
+  if (confirmed + unconfirmed == 0 && count_of(d, Confidence::set_aside))
+    return "is adequate: what stands out is not beyond chance, a suspicion remains";
+  if (confirmed + unconfirmed == 0) {
+    const inference::Check* const nearest = nearest_to_a_name(d);
+    return nearest ? "is adequate: nothing was found beyond doubt; " + name_of(*nearest) + " came near (" +
+                         chance(nearest->log_p) + ")"
+                   : "is adequate: nothing was found beyond chance";
+  }
   const bool doubted =
       std::any_of(d.causes.begin(), d.causes.end(), [](const CauseEstimate& c) { return !c.doubt.empty(); });
   if (confirmed == 0)

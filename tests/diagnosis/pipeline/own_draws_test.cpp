@@ -6,6 +6,7 @@
 #include <string>
 
 #include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/pipeline/unstated_field.hpp"
 #include "tests/diagnosis/pipeline/flat.hpp"
 
 namespace muster::diagnosis {
@@ -70,6 +71,24 @@ TEST(OwnDraws, NothingIsWrongWithoutFading) {
     const std::filesystem::path world = flat(scratch, seed, "fading=\"false\"");
     EXPECT_EQ(names_in_words(named_causes(diagnose(world, drawn_by(scratch, world), plugins))), "silent");
   }
+}
+
+// All scatter together, which is seen where the laws of single readings cannot be tested.
+TEST(OwnDraws, ScatterAsTheWorldSays) {
+  const Scratch scratch;
+  const auto scatter_in = [&](const std::string& said, const std::string& done) {
+    const std::filesystem::path measured = drawn_by(scratch, flat(scratch, 16, done));
+    return other_scatter(DiagnosisSetup(flat(scratch, 16, said), measured, plugins));
+  };
+  const std::string field = "shadowing=\"1\" decorrelation=\"2\" per_reading=\"true\" ";
+  const std::string wild = field + "rician_k=\"-40\"", calm = field + "rician_k=\"12\"";
+  EXPECT_FALSE(scatter_in(wild, wild));
+  EXPECT_FALSE(scatter_in(calm, calm));
+  EXPECT_FALSE(scatter_in("shadowing=\"0\" fading=\"false\"", calm));  // says nothing
+  const auto less = scatter_in(wild, calm), more = scatter_in(calm, wild);
+  ASSERT_TRUE(less && more);
+  EXPECT_LT(less->measured, less->least);
+  EXPECT_GT(more->measured, more->most);
 }
 
 // A direction that is 0.3 dB weaker is seen beneath fades of 5.6 dB that both share.

@@ -244,6 +244,16 @@ TEST(Text, NothingFoundIsAdequate) {
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "hall is adequate: nothing was found beyond chance")) << text;
   EXPECT_FALSE(says(text, "Cause"));
+  inference::Check near;
+  near.id = "effect.room_clutter";
+  near.log_p = std::log(2e-6);
+  d.checks = {near};
+  EXPECT_TRUE(
+      says(text_of(d, {"hall", "a.csv"}), "nothing was found beyond doubt; room clutter came near (p = 2e-06)"));
+  d.other_scatter = {3.5, 4.5, 5.5};
+  EXPECT_STREQ(d.verdict(), "unexplained");
+  EXPECT_TRUE(
+      says(text_of(d, {"hall", "a.csv"}), "is not adequate: readings scatter by 3.5 dB, where the world says 4.5"));
 }
 
 // With the channel's law at its physical bound no cause is certain, whatever its gain.
