@@ -55,20 +55,20 @@ std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const infe
 }
 
 std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at) {
-  // Beside the world's own parameters, fitted to each: a field that is wide is not to be told from them.
+  // A fit takes up a part of a wide field, and none of what differs from place to place: the least scatter is that
+  // beside the world's own parameters, the most that about the declared ones.
   const noise::Basis own = noise::basis_of(at.base.slopes(at.used.rows, Eigen::all));
-  const auto scatter = [&](const VectorXd& all) {
-    const VectorXd errors = all(at.used.rows);
+  const auto scatter = [](const VectorXd& errors) {
     const auto heard = errors.array().isFinite().eval();
-    return std::sqrt(own.rest(heard.select(errors, 0).matrix()).squaredNorm() /
-                     std::max<double>(1, static_cast<double>(heard.count())));
+    return std::sqrt(heard.select(errors, 0).squaredNorm() / std::max<double>(1, static_cast<double>(heard.count())));
   };
-  OtherScatter result{scatter(at.fitted.readings.rssi - at.fitted.mean), std::numeric_limits<double>::infinity(), 0};
+  OtherScatter result{scatter((at.fitted.readings.rssi - at.fitted.mean)(at.used.rows)),
+                      std::numeric_limits<double>::infinity(), 0};
   for (int k = 0; k < thresholds::runs_of_scatter; ++k) {
     const WorldDraw draw = at.draws.draw(static_cast<uint64_t>(k), {}, {});
-    const double drawn = scatter(draw.drawn - draw.expected);
-    result.least = std::min(result.least, drawn);
-    result.most = std::max(result.most, drawn);
+    const VectorXd errors = (draw.drawn - draw.expected)(at.used.rows);
+    result.least = std::min(result.least, scatter(own.rest(errors.array().isFinite().select(errors, 0).matrix())));
+    result.most = std::max(result.most, scatter(errors));
     const bool within = result.measured > result.least / thresholds::other_scatter &&
                         result.measured < result.most * thresholds::other_scatter;
     if (within || result.least < thresholds::least_stated_scatter) return {};

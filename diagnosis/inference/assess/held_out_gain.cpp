@@ -168,6 +168,24 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state, KeptFolds&
   });
 }
 
+// A term that makes predictions at left-out groups wild: ten pairs of radios, say, are fitted by a few causes that have
+// numbers enough, and each radio left out tells that none of them is there.
+std::optional<std::size_t> refuted_at_groups(const ModelState& state) {
+  for (const Grouping& grouping : state.problem().layout->groupings(state.rows(), state.field().sites())) {
+    KeptFolds own;
+    const Folds& folds = own.of(state, grouping.of_row);
+    if (!folds.possible()) continue;
+    const Errors errors(state, folds);
+    const Eigen::VectorXd full = errors.first(state.terms.size()), base = errors.first(0);
+    if (full.mean() < (1 + thresholds::refuting_growth_of_sure) * base.mean()) continue;
+    const auto worst = worst_of(
+        state, full, [&](std::size_t one) { return errors.without(one); },
+        [&](std::size_t one) { return concerns_several(state.terms[one], grouping.of_row); });
+    if (worst) return worst;
+  }
+  return {};
+}
+
 // A name in time says what happens at other times: it must not be worse there than no name.
 std::optional<std::size_t> refuted_at_times(const ModelState& state) {
   const auto in_time = [](const Term& term) { return !term.smooth() && term.candidate->role.time_like; };
@@ -200,8 +218,9 @@ const Folds& KeptFolds::of(const ModelState& state, const std::vector<int>& part
 
 std::optional<std::size_t> most_refuted(const ModelState& state, KeptFolds& kept) {
   if (state.terms.empty()) return {};
-  const auto at_places = refuted_at_places(state, kept);
-  return at_places ? at_places : refuted_at_times(state);
+  if (const auto at_places = refuted_at_places(state, kept)) return at_places;
+  if (const auto at_groups = refuted_at_groups(state)) return at_groups;
+  return refuted_at_times(state);
 }
 
 void add_held_out_gains(const ModelState& state, KeptFolds& kept, Result& result) {
