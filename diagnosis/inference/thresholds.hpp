@@ -261,6 +261,8 @@ inline constexpr Eigen::Index fewest_readings = 50;
 inline constexpr double block_side = 3;
 // blocks; fewest over which an interval may refute a term; chosen; none
 inline constexpr int fewest_refuting_blocks = 5;
+// share; of rows that recur at a site, from which a network stands; chosen; none
+inline constexpr double standing_share = 0.9;
 // share; of a term's squares in one left-out part, from which the others say nothing of it; chosen; none
 inline constexpr double most_in_one_part = 0.9;
 // share; growth of the squared error at left-out places by which a term is refuted, whatever its interval; chosen; none

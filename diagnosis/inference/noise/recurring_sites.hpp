@@ -18,6 +18,7 @@ class RecurringSites {
   }
   // Rows of the same site, itself among them, in their order.
   const std::vector<Index>& rows_with(Index row) const { return rows_[at(site_[at(row)])]; }
+  const std::vector<std::vector<Index>>& sites() const { return rows_; }  // the rows of each, in their order
   // Share of rows whose site has others, of those that share a field.
   double share() const;
   bool several_streams() const { return several_streams_; }  // at some site

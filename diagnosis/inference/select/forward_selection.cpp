@@ -109,6 +109,25 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
 
+// Numbers fitted for a candidate: its strengths, and where it is.
+Index numbers_of(const Candidate& c) { return c.design.width + (c.refinement.step.array() != 0).count(); }
+
+// True if nearly all rows recur at a few sites, which the model would then fit one by one: each site has one level,
+// however often it is measured, and a term that is alike in all rows of a site needs as many of them left as it has
+// numbers.
+bool fits_each_site(const ModelState& state, const ScoredCandidate& lead) {
+  const noise::RecurringSites& recurring = state.field().recurring();
+  if (recurring.share() < thresholds::standing_share) return false;
+  const double small = 1e-6 * lead.columns.cwiseAbs().maxCoeff();
+  for (const std::vector<Index>& rows : recurring.sites()) {
+    for (const Index row : rows)
+      if ((lead.columns.row(row) - lead.columns.row(rows.front())).cwiseAbs().maxCoeff() > small) return false;
+  }
+  Index left = static_cast<Index>(recurring.sites().size()) - state.base().cols() - numbers_of(lead.candidate());
+  for (const Term& term : state.terms) left -= numbers_of(*term.candidate);
+  return left < numbers_of(lead.candidate());
+}
+
 // Tests a lead for significance over the uncertain covariance, for support by one group alone, and for clipping.
 Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
             const Eigen::MatrixXd& design) {
@@ -150,6 +169,8 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
     trial.reason = "not beyond chance";
   else if (of_outlier(state, c, gains_by_row))
     trial.reason = "rests on fewer than five readings";
+  else if (c.kind == Kind::named && fits_each_site(state, lead))
+    trial.reason = "has more numbers than the sites of the network leave";
   trial.accepted = trial.reason.empty();
   return trial;
 }
