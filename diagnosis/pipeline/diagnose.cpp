@@ -359,6 +359,10 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
       end = again.end;
       found = std::move(again);
       given = std::move(ended);
+    } else {
+      for (CauseEstimate& c : found.causes)
+        if (!c.values.empty() && c.values[0].value == *found.end)
+          c.doubt = "not seen again once the levels above it were set right";
     }
   }
   const OwnWorldVerdict verdict = given->in_own_worlds(found);

@@ -168,8 +168,8 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state, KeptFolds&
   });
 }
 
-// A term that makes predictions at left-out groups wild: ten pairs of radios, say, are fitted by a few causes that have
-// numbers enough, and each radio left out tells that none of them is there.
+// A term that makes predictions at left-out groups wild: a few causes with numbers enough fit each of ten sites, and a
+// group left out tells that none of them is there.
 std::optional<std::size_t> refuted_at_groups(const ModelState& state) {
   for (const Grouping& grouping : state.problem().layout->groupings(state.rows(), state.field().sites())) {
     KeptFolds own;

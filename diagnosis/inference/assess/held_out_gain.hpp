@@ -24,8 +24,8 @@ class KeptFolds {
 };
 
 // The term that left-out readings speak against most. At left-out places: without it their error falls beyond chance;
-// where all terms together raise that error beyond chance, the one that raises it most. Of left-out groups, such as
-// radios: where they make their error wild. A name in time also by readings at left-out times: without it their error
+// where all terms together raise that error beyond chance, the one that raises it most. Of left-out groups:
+// where they make their error wild. A name in time also by readings at left-out times: without it their error
 // falls. Nothing with too few blocks to tell.
 std::optional<std::size_t> most_refuted(const ModelState& state, KeptFolds& kept);
 // Fills in the held-out figures of the result and of each accepted finding.

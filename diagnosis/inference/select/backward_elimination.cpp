@@ -197,7 +197,7 @@ bool same_name(const Term& term, const Term& other) {
 }
 
 // True if a term alone explains most of what all terms of its name do: the others are what its linear effect leaves
-// over, such as that of a radio's place beside losses of walls that are not yet right.
+// over, such as that of a place beside parameters of the model that are not yet right.
 bool leads_its_like(const ModelState& state, const Term& term) {
   const auto alike = [&](const Term& other) { return same_name(term, other); };
   Eigen::MatrixXd columns(state.rows().size(), 0);
