@@ -164,7 +164,7 @@ class DamagedLogMaker {
         // The station s is listed where s - by is, so that the first is truly where first + by is listed.
         const auto by = 1 + static_cast<std::size_t>(one_of(count - 1)), all = stations_.size();
         for (std::size_t s = 0; s < all; ++s) listed_[(s + by) % all] = stations_[s];
-        truth_ = "effect.labels_shifted radio/" + name(by);
+        truth_ = "effect.labels_shifted radio/" + name(by) + " order world";
         break;
       }
       case Fault::mirrored:
