@@ -33,28 +33,20 @@ bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& both, cons
   return stated.value <= std::min(near_fit, near_stated) + thresholds::stated_field_nats;
 }
 
-// Significant slow candidates and places, the likeliest first.
+// Significant slow candidates, the likeliest first.
 std::vector<ScoredCandidate> beyond_chance(ModelState& state, const WhitenedModel& model, double threshold,
                                            const std::function<bool(const Candidate&)>& usable) {
   std::vector<ScoredCandidate> result;
   for (const Entry& entry : state.entries()) {
     const Candidate& c = *entry.candidate;
-    const bool place = !c.role.pieces.empty();
-    if (!(c.role.slow || place || c.kind == Kind::smooth) || !usable(c)) continue;
+    if (!(c.role.slow || c.kind == Kind::smooth) || !usable(c)) continue;
     Index at = 0;
-    Eigen::VectorXd all = gains(c, unit_atoms(entry, model), model.at.residual);
-    const double gain = all.maxCoeff(&at);
+    const double gain = gains(c, unit_atoms(entry, model), model.at.residual).maxCoeff(&at);
+    const double log_p = state.log_p(c, gain, c.design.width, false);
+    if (log_p >= threshold) continue;
     const Eigen::VectorXd& theta = c.design.grid[static_cast<std::size_t>(at)];
-    ScoredCandidate lead{&entry,
-                         theta,
-                         entry.atom(at),
-                         gain,
-                         state.evidence(c, gain, c.design.width, false),
-                         state.log_p(c, gain, c.design.width, false),
-                         false,
-                         place ? std::move(all) : Eigen::VectorXd{}};
-    if (place) lead = refined(state, model, lead, false);
-    if (lead.log_p < threshold) result.push_back(std::move(lead));
+    result.push_back(
+        {&entry, theta, entry.atom(at), gain, state.evidence(c, gain, c.design.width, false), log_p, false, {}});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.log_p < b.log_p; });
