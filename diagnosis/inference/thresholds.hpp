@@ -261,13 +261,16 @@ inline constexpr Eigen::Index fewest_readings = 50;
 inline constexpr double block_side = 3;
 // blocks; fewest over which an interval may refute a term; chosen; none
 inline constexpr int fewest_refuting_blocks = 5;
-// share; of rows that recur at a site, from which a network stands; chosen; none
+// share; of rows that recur at a site, from which a network stands; chosen;
+// Search.ACauseOfMoreNumbersThanAFewSitesLeaveIsNotNamed
 inline constexpr double standing_share = 0.9;
-// share; of a term's squares in one left-out part, from which the others say nothing of it; chosen; none
+// share; of a term's squares in one left-out part, from which the others say nothing of it; chosen;
+// Refutation.SparesWhatOneBlockAloneKnows
 inline constexpr double most_in_one_part = 0.9;
 // share; growth of the squared error at left-out places by which a term is refuted, whatever its interval; chosen; none
 inline constexpr double refuting_growth = 0.25;
-// share; the same for a term of this gain, which few blocks refute only where its predictions are wild; chosen; none
+// share; the same for a term of this gain, which few blocks refute only where its predictions are wild; chosen;
+// Refutation.RefutesWhatOneGroupLeftOutMakesWild
 inline constexpr double refuting_growth_of_sure = 3;
 // lambda; from which a term is that sure; chosen; none
 inline constexpr double sure_of_growth = 200;

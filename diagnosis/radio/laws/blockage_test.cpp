@@ -19,7 +19,6 @@ using Eigen::VectorXd;
 constexpr std::array widths{0.8, 1.4, 2.5};              // s, half-widths of a dip at 1/e
 constexpr std::array losses{2.5, 4.0, 6.5, 10.0, 15.0};  // dB
 constexpr double spacing = 0.6;                          // s, of the grid of times
-constexpr double pause = 30;                             // s, beyond which the grid of times skips what nobody measured
 const double log_rate = std::log(spacing / thresholds::between_blockages),
              log_none = std::log1p(-spacing / thresholds::between_blockages);
 constexpr int shuffles = 60;
@@ -181,8 +180,10 @@ class Scan {
           shares[row] += std::exp(-u * u) / state_.rows().count()[row];
         }
         // A pause without readings has the same ratio with any number of empty dips, beyond those of a gap.
-        if (shares.empty() && from < readings.size() && time(readings[from]) > at + pause)
-          at += spacing * std::floor((time(readings[from]) - at - pause / 2) / spacing);
+        if (shares.empty() && from < readings.size()) {
+          const double more = time(readings[from]) - 2.5 * width - at - spacing * static_cast<double>(gap(train));
+          at += spacing * std::max(0.0, std::floor(more / spacing));
+        }
         train.dips.push_back({{shares.begin(), shares.end()}, 0});
         train.dips.back().energy = energy(train.dips.back(), sheet);
       }

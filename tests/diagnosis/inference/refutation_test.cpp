@@ -16,6 +16,16 @@ using synthetic::scaled_to;
 using synthetic::varied;
 using synthetic::world_of;
 
+// A cause of this one column, under the name of its covariate.
+Candidate of_column(const std::string& name, const Eigen::VectorXd& column) {
+  Candidate result;
+  result.id = name;
+  result.covariates = {name};
+  result.design.grid = {Eigen::VectorXd(0)};
+  result.design.columns = [column](const Eigen::VectorXd&) { return Eigen::MatrixXd(column); };
+  return result;
+}
+
 // True if a swing in the model is refuted, where the readings have a swing of this lambda: 0 for none.
 bool swing_refuted(uint64_t seed, double lambda) {
   const auto world = world_of(varied(seed, 3000));
@@ -57,11 +67,7 @@ TEST(Refutation, SparesASmallOffsetThatNeighboursShow) {
     for (Index i = 0; i < column.size(); ++i)
       column[i] = rows.row_of()[static_cast<std::size_t>(i)] % 2 == 0 ? 0.0 : 1.0;
     std::vector<Candidate> with = causes;
-    Candidate offset;
-    offset.id = "offset";
-    offset.covariates = {"offset"};
-    offset.design.grid = {Eigen::VectorXd(0)};
-    offset.design.columns = [column](const Eigen::VectorXd&) { return Eigen::MatrixXd(column); };
+    const Candidate offset = of_column("offset", column);
     with.push_back(offset);
     const Problem problem = problem_of(world, scaled_to(world, column, 60), with);
     ModelState state(problem, {});
@@ -70,6 +76,61 @@ TEST(Refutation, SparesASmallOffsetThatNeighboursShow) {
     state.refit();
     KeptFolds folds;
     EXPECT_FALSE(most_refuted(state, folds).has_value()) << seed;
+  }
+}
+
+// What lies in one block but for a trace elsewhere, as a thing in a corner: without the block the trace alone says how
+// large it is, and what it foretells is wild whether the thing is there or not.
+TEST(Refutation, SparesWhatOneBlockAloneKnows) {
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto world = world_of(varied(seed, 3000));
+    const auto causes = causes_of(world);
+    const Problem bare = problem_of(world, Eigen::VectorXd::Zero(world.rssi.size()), causes);
+    const ModelState before(bare, {});
+    const std::vector<int> blocks = blocks_of(before.field().sites(), before.fit.covariance);
+    Eigen::VectorXd column(world.rssi.size());
+    for (Index i = 0; i < column.size(); ++i) {
+      const Index row = before.rows().row_of()[static_cast<std::size_t>(i)];
+      const bool inside = blocks[static_cast<std::size_t>(row)] == blocks[0];
+      column[i] = inside ? 1 : row % 40 == 0 ? 0.003 : 0;
+    }
+    std::vector<Candidate> with = causes;
+    with.push_back(of_column("corner", column));
+    const Problem problem = problem_of(world, scaled_to(world, column, 300), with);
+    ModelState state(problem, {});
+    const Entry& entry = state.entry_of(with.back());
+    state.terms.push_back(
+        {entry.candidate, Eigen::VectorXd(0), state.columns_of(with.back(), Eigen::VectorXd(0)), 300});
+    state.refit();
+    KeptFolds folds;
+    EXPECT_FALSE(most_refuted(state, folds).has_value()) << seed;
+  }
+}
+
+// Two causes that only the readings of one transmitter tell apart: places left out do not show it, that transmitter
+// left out does.
+TEST(Refutation, RefutesWhatOneGroupLeftOutMakesWild) {
+  for (uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto world = world_of(varied(seed, 3000));
+    std::vector<Candidate> with = causes_of(world);
+    const Index n = world.rssi.size();
+    Eigen::VectorXd one(n), other(n);
+    for (Index i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      one[i] = world.readings.rx_at(0, i) - 12;
+      other[i] = one[i] + (world.readings.tx[k] == 0 ? 3 : 0) + 0.002 * std::sin(static_cast<double>(i));
+    }
+    with.push_back(of_column("one", one));
+    with.push_back(of_column("other", other));
+    const Problem problem = problem_of(world, Eigen::VectorXd::Zero(n), with);
+    ModelState state(problem, {});
+    for (std::size_t k = with.size() - 2; k < with.size(); ++k) {
+      const Entry& entry = state.entry_of(with[k]);
+      state.terms.push_back({entry.candidate, Eigen::VectorXd(0), state.columns_of(with[k], Eigen::VectorXd(0)), 300});
+    }
+    state.refit();
+    KeptFolds folds;
+    EXPECT_TRUE(most_refuted(state, folds).has_value()) << seed;
   }
 }
 
