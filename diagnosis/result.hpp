@@ -55,6 +55,9 @@ struct CauseEstimate {
   bool changes_in_time() const;
 };
 
+// How a doubt begins where a parameter of the world ends at its bound.
+inline constexpr const char* at_its_bound = "at its bound: ";
+
 struct Unexplained {
   std::string covariate;
   double evidence = 0;

@@ -105,10 +105,13 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.bins = binned(rssi, mean);
   const double lost = static_cast<double>(lost_at.size()), all = static_cast<double>(rssi.size());
   const double chance = lost * std::log(lost / all) + (all - lost) * std::log1p(-lost / all);
-  // The floor is near the weakest received readings, except for outliers: the likeliest of these.
+  // The floor is near the weakest received readings, except for outliers: the likeliest of these. One that was received
+  // below it is as unlikely as an outlier is rare.
   Mixture best{.log_likelihood = -1e300};
   for (std::size_t rank = 0; rank <= heard.size() / 1000; rank = std::max<std::size_t>(2 * rank, 1)) {
-    const Mixture mixture = with_floor(lost_at, heard_at, heard[rank], std::max(sigma, 0.1));
+    Mixture mixture = with_floor(lost_at, heard_at, heard[rank], std::max(sigma, 0.1));
+    const auto received_below = std::lower_bound(heard.begin(), heard.end(), heard[rank]) - heard.begin();
+    mixture.log_likelihood += static_cast<double>(received_below) * thresholds::log_share_below_a_floor;
     if (mixture.log_likelihood <= best.log_likelihood) continue;
     best = mixture;
     result.floor = heard[rank];

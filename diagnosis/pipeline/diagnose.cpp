@@ -145,9 +145,9 @@ class Diagnoser {
       out.causes[k].one_station = seen_from_one_station(out.seen, out.causes[k].effect, places[k]);
     const inference::WhitenedModel alone = state.whitened_model(state.base());
     out.fitted = setup_.base.mean + setup_.base.slopes * (alone.coefficients(state.base().cols()) - setup_.base.values);
+    out.checks = result.checks;
     add_what_scatters(state, out);
     out.stairs = result.stairs;
-    out.checks = result.checks;
     out.world_values = world_values(state, setup_.base.paths, coefficients, setup_.model);
     for (WorldValue& v : out.world_values) {
       v.value = out.parameters.at(v.path);
@@ -184,7 +184,7 @@ class Diagnoser {
     }
     if (ends.empty()) return;
     const std::string doubt =
-        "at its bound: " + ends + ", so that the world cannot follow these readings and no name is sure";
+        at_its_bound + ends + ", so that the world cannot follow these readings and no name is sure";
     out.notes.push_back(doubt);
     for (CauseEstimate& c : out.causes) c.doubt = doubt;
   }

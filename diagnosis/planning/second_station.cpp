@@ -55,6 +55,7 @@ std::optional<Vector2d> best_view(const RowSummary& seen, const std::vector<Stan
 std::vector<Vector2d> places_of(const CauseShape& shape, const inference::Finding& finding) {
   std::vector<Vector2d> places;
   if (shape.place == PlaceShape::none || shape.is_room()) return places;
+  if (!shape.cause.rows().empty()) return places;  // of what the map has, as a radio: nothing that casts a shadow
   for (const Eigen::VectorXd& theta : finding.thetas) places.emplace_back(theta[1], theta[2]);
   return places;
 }

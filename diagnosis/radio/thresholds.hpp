@@ -130,6 +130,12 @@ inline constexpr double fewest_crossings = 30;
 inline constexpr double rising_share = 0.15;
 // standard errors; of that rise; chosen; none
 inline constexpr double rising_errors = 5;
+// standard deviations; by which a shadow that the model does not know may be deeper than one it knows; chosen;
+// Survey.LossesBelowTheStatedFloorAreNoOtherFloor
+inline constexpr double deep_shadow = 4;
+// log share; of readings that a receiver reads below its floor, as outliers; chosen;
+// MissingData.NoFloorIsAboveAReadingThatWasReceived
+inline constexpr double log_share_below_a_floor = -7;
 // deviance; of a floor, p < 0.002, to take losses for censored; chosen; MissingData.AFloorInTheTailTakesFew
 inline constexpr double censored_evidence = 10;
 // share; of losses that the floor explains, to take them for censored; chosen;
@@ -251,6 +257,12 @@ inline constexpr int field_draws = 12;
 inline constexpr double alike_field = 0.01;
 // lambda; from which the weaker of a fading law and a field is beyond doubt; chosen; none
 inline constexpr double second_law_lambda = 30;
+// probability; of a cause or a dependence that is not found, beside which another field is in doubt; chosen;
+// LawDoubts.AnotherFieldIsInDoubtBesideWhatItMayHaveAbsorbed
+inline constexpr double absorbed_alpha = 1e-3;
+// nats; evidence from which another field is plain, whatever the law of distance; chosen;
+// LawDoubts.AFieldOfLittleEvidenceMayHaveAnotherLawOfDistance
+inline constexpr double plain_field = 20;
 // m; from a wall's end within which a reading grazes it, since surveys write centimetres; chosen;
 // GrazingLinks.AreNoOutliers
 inline constexpr double grazing = 0.005;

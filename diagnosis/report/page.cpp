@@ -135,7 +135,7 @@ std::string cause_card(const CauseEstimate& c, std::size_t number, const std::ve
                                   c.inflation)}});
   for (const inference::Elsewhere& e : c.elsewhere)
     facts.push_back({{e.left_out + " not seen"}, {gain_in_words(e.held_out, e.left_out)}});
-  facts.push_back({{"alternative"}, {rivals_in_words(c.alternatives)}});
+  facts.push_back({{"alternative"}, {rivals_in_words(c)}});
   out += table({}, facts);
   return out + "</article>\n" + figure_named(pictures, fmt::format("cause_{}", number));
 }

@@ -104,7 +104,7 @@ std::string cause_text(const CauseEstimate& c, int number) {
     text += entry("doubt", c.doubt);
   else if (confidence == Confidence::unconfirmed && c.held_out)
     text += entry("", "Not confirmed on held-out data: " + why_unconfirmed(c) + ".");
-  if (confidence != Confidence::set_aside) text += entry("alternative", rivals_in_words(c.alternatives));
+  if (confidence != Confidence::set_aside) text += entry("alternative", rivals_in_words(c));
   return text;
 }
 

@@ -195,6 +195,12 @@ std::string covariate_in_words(const std::string& name) {
          (words.count(second) ? words.at(second) : second);
 }
 
+std::string rivals_in_words(const CauseEstimate& cause) {
+  return is_law(cause) && cause.alternatives.empty()
+             ? "none of its kind; a law of scatter is not compared with what shifts levels"
+             : rivals_in_words(cause.alternatives);
+}
+
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives) {
   if (alternatives.empty()) return "none: the readings exclude all other causes";
   std::string out;
@@ -241,12 +247,22 @@ std::string chance(double log_p) {
 
 namespace {
 
-// The check of the smallest p, where that is smaller than chance yields in a thousand diagnoses; null if none is.
+// The check of the smallest p, where that is smaller than chance yields in a hundred diagnoses; null if none is.
 const inference::Check* nearest_to_a_name(const Diagnosis& d) {
   const auto least =
       std::min_element(d.checks.begin(), d.checks.end(),
                        [](const inference::Check& a, const inference::Check& b) { return a.log_p < b.log_p; });
-  return least != d.checks.end() && least->log_p < std::log(1e-5) ? &*least : nullptr;
+  return least != d.checks.end() && least->log_p < std::log(1e-4) ? &*least : nullptr;
+}
+
+// Why none of the names is confirmed.
+std::string what_is_missing(const Diagnosis& d) {
+  const auto any = [&](const auto& is) { return std::any_of(d.causes.begin(), d.causes.end(), is); };
+  if (any([](const CauseEstimate& c) { return c.doubt.rfind(diagnosis::at_its_bound, 0) == 0; }))
+    return "the fit ends at a bound, and no name is sure";
+  return any([](const CauseEstimate& c) { return c.doubt.empty() && c.status == inference::Status::named; })
+             ? "what was held out does not confirm it yet"
+             : "it is in doubt";
 }
 
 std::string whole_verdict(const Diagnosis& d) {
@@ -273,12 +289,7 @@ std::string whole_verdict(const Diagnosis& d) {
                          chance(nearest->log_p) + ")"
                    : "is adequate: nothing was found beyond chance";
   }
-  const bool doubted =
-      std::any_of(d.causes.begin(), d.causes.end(), [](const CauseEstimate& c) { return !c.doubt.empty(); });
-  if (confirmed == 0)
-    return "seems wrong: " + named + ", but " +
-           (doubted ? "the fit ends at a bound, and no name is sure" : "what was held out does not confirm it yet") +
-           left;
+  if (confirmed == 0) return "seems wrong: " + named + ", but " + what_is_missing(d) + left;
   return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "") + left;
 }
 

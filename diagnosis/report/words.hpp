@@ -47,6 +47,8 @@ std::string covariate_in_words(const std::string& name);
 // "obstacle (2.0, 1.5), 1.5 nats behind, D 6: not distinguishable", for each alternative ("ahead" where it is
 // likelier); or that there are none.
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
+// The same of a named cause, of which a law of scatter has none that were compared with it.
+std::string rivals_in_words(const CauseEstimate& cause);
 // "effect.dual_slope", or with the causes that these readings cannot tell from it:
 // "effect.dual_slope or effect.rssi_compression (the readings do not tell which)".
 // True for an alternative that is named beside the cause: the readings tell neither from the other.

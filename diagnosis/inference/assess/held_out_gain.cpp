@@ -152,7 +152,7 @@ std::optional<std::size_t> refuted_at_places(const ModelState& state, KeptFolds&
     return (without - white).sum() > thresholds::borne_out_share * term.gain;
   };
   const auto grows = [&](std::size_t one, const HeldOutGain& gain, const Eigen::VectorXd& before) {
-    const bool sure = state.terms[one].gain > thresholds::sure_of_growth;
+    const bool sure = state.terms[one].gain > thresholds::sure_of_growth || borne_out(one);
     return gain.gain < -(sure ? thresholds::refuting_growth_of_sure : thresholds::refuting_growth) * before.mean();
   };
   // A term may fail in few blocks and badly: the interval then includes 0.

@@ -65,8 +65,9 @@ std::vector<std::string> names_in(const std::string& set, const LinkModel& model
 std::vector<std::string> names_for(const Cause& cause, const muster_param& row, const LinkModel& model,
                                    const MeasurementGeometry& survey) {
   std::vector<std::string> result;
-  // Without a radio it is about every receiver.
-  if (!(row.flags & MUSTER_REQUIRED) && (survey.receivers_have_yaw || !needs(cause, "rx_yaw"))) result.push_back("");
+  // Without a radio it is about every receiver. What depends on a heading that all receivers have always is a direction
+  // in the plan.
+  if (!(row.flags & MUSTER_REQUIRED) && (survey.receivers_turn || !needs(cause, "rx_yaw"))) result.push_back("");
   for (const std::string& name : names_in(row.text, model)) {
     if (needs(cause, "walls") && !survey.counted.count(name)) continue;
     const auto number = static_cast<std::size_t>(model.simulation().board().find_set(row.text)->find(name));

@@ -88,6 +88,15 @@ void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step,
 // Fisher's combination of two independent tests.
 double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
 
+// True if the world's own receiver hears nothing that is about as weak: a reading in a shadow that is deeper than the
+// model knows is lost to that. Only where levels also end abruptly is the floor another one.
+bool lost_below_the_stated_floor(const LawSources& s, double floor) {
+  const std::optional<double> stated = silent_below(s.model.simulation());
+  const noise::Covariance& noise = s.state.fit.covariance;
+  const double scatter = std::sqrt(noise.field_variance() + noise.reading_variance());
+  return stated && *stated<floor&& * stated> floor - thresholds::deep_shadow * scatter;
+}
+
 // Tests for readings missing at low levels only. True if the cause is named.
 bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& found) {
   const double step = found.receiver.step;
@@ -100,6 +109,7 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
     test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
   if (causes.empty() || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
   if (clips_at(s, MUSTER_BELOW, true, missing.floor, step)) return false;
+  if (!missing.cut_off && lost_below_the_stated_floor(s, missing.floor)) return false;
   add_clip(s, causes, missing.floor, std::max(step, 0.02), true, test, found);
   return true;
 }

@@ -143,4 +143,18 @@ std::string doubt_of(const LawSources& s, const VectorXd& residual, const Kriged
   return "";
 }
 
+std::string doubt_of_field(const Diagnosis& found, const CauseEstimate& field) {
+  const auto absorbed = std::min_element(found.checks.begin(), found.checks.end(),
+                                         [](const auto& a, const auto& b) { return a.log_p < b.log_p; });
+  const bool told =
+      absorbed != found.checks.end() && std::any_of(found.causes.begin(), found.causes.end(),
+                                                    [&](const CauseEstimate& c) { return c.id == absorbed->id; });
+  if (absorbed != found.checks.end() && !told && absorbed->log_p < std::log(thresholds::absorbed_alpha))
+    return fmt::format("what is not found makes a field wide, too, and {} comes near (p = {:.1g})",
+                       absorbed->id.substr(absorbed->id.find_first_of(".~") + 1), std::exp(absorbed->log_p));
+  if (field.evidence < thresholds::plain_field)
+    return "a law of distance that is a little other than the world's, or a thing that is not found, would do as well";
+  return "";
+}
+
 }  // namespace muster::diagnosis

@@ -16,4 +16,8 @@ std::vector<bool> unsure(const LawSources& sources, const Eigen::VectorXd& resid
 std::string doubt_of(const LawSources& sources, const Eigen::VectorXd& residual, const KrigedReadings& field,
                      const Diagnosis& found, const LawTest& law);
 
+// Why a field that differs from the world's may be none: what shifts levels at places and is not found makes a field
+// wide, too. Empty where it is plain.
+std::string doubt_of_field(const Diagnosis& found, const CauseEstimate& field);
+
 }  // namespace muster::diagnosis

@@ -203,8 +203,7 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   survey.has_time = !data.t.empty();
   survey.sampling = sampling_interval(data.t);
   survey.level = middle_of(data.rssi);
-  survey.receivers_have_yaw = !data.rx_yaw.empty();
-  survey.has_yaw = survey.receivers_have_yaw || !data.tx_yaw.empty();
+  survey.has_yaw = !data.rx_yaw.empty() || !data.tx_yaw.empty();
   survey.has_places = data.has_places();
   for (const Covariate& c : data.covariates) {
     const bool whole = std::none_of(c.values.begin(), c.values.end(), [](double v) { return std::isnan(v); });
@@ -215,6 +214,7 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   survey.strips = strips_of(model);
   std::map<int, Trail> trails;
   std::vector<double> distances, times;
+  Span heading;  // of the receiving ends
   bool first = true;
   for (const std::size_t row : by_time(data)) {
     const auto& ends = model.ends()[row];
@@ -225,11 +225,13 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
       widen(survey.east, end.x, first);
       widen(survey.north, end.y, first);
       widen(survey.height, end.z, first);
+      if (k == 1) widen(heading, end.yaw, distances.empty());
       first = false;
     }
     if (survey.has_time && !data.is_wild(row)) times.push_back(data.t[row]);
     distances.push_back(std::hypot(std::hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y), ends[0].z - ends[1].z));
   }
+  survey.receivers_turn = !data.rx_yaw.empty() && heading.length() > thresholds::turning_range;
   survey.time = RecordedTime(std::move(times));
   std::sort(survey.ways.begin(), survey.ways.end());
   survey.has_height = survey.height.length() > thresholds::least_heights;

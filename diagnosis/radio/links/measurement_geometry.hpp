@@ -15,10 +15,11 @@ namespace muster::diagnosis {
 
 struct MeasurementGeometry {
   bool has_time = false, has_height = false;
-  bool has_yaw = false, receivers_have_yaw = false;  // of either end; of receivers
-  bool has_places = true;                            // false: the data have only distances
-  std::set<std::string> counted = {};                // materials whose walls the data count, in columns walls_NAME
-  Span level;                                        // dBm, of all but the weakest and the strongest readings
+  bool has_yaw = false;                         // of either end
+  bool receivers_turn = false;                  // headings of the receiving ends differ
+  bool has_places = true;                       // false: the data have only distances
+  std::set<std::string> counted = {};           // materials whose walls the data count, in columns walls_NAME
+  Span level;                                   // dBm, of all but the weakest and the strongest readings
   double sampling = 0;                          // s, between samples, as the longer gaps of the run have it; 0: no time
   RecordedTime time;                            // s
   Span east, north, height;                     // m

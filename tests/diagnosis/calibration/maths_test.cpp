@@ -167,6 +167,20 @@ TEST(MissingData, AFloorInTheTailTakesFew) {
   EXPECT_NEAR(few.floor, -100, 0.5);
 }
 
+// Three readings are lost in a shadow that the model does not know; weaker ones were received.
+TEST(MissingData, NoFloorIsAboveAReadingThatWasReceived) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> error(0, 4);
+  Eigen::VectorXd mean(1300), rssi(1300);
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    mean[i] = -50 - 0.03 * static_cast<double>(i);
+    rssi[i] = std::max(-93.0, std::round(mean[i] + error(random)));
+  }
+  rssi[1280] = -96;
+  for (const Eigen::Index lost : {1270, 1290, 1299}) rssi[lost] = std::nan("");
+  EXPECT_EQ(missing_data(rssi, mean, 4).floor, -96);
+}
+
 // A receiver that loses half of all readings, and more of weak ones.
 TEST(MissingData, ALossThatRisesGentlyIsNoFloorAndNotChance) {
   const auto gentle = [](double level, double chance) { return chance > 0.5 / (1 + std::exp((-78 - level) / 5)); };

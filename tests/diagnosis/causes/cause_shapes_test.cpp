@@ -119,6 +119,33 @@ TEST(CauseRows, ARadioThatOnlyTheDataNameIsOne) {
   EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
 }
 
+// What a robot sends is heard by stations that all look east: a pattern about their heading is one over the plan.
+TEST(CauseRows, WhatDependsOnAHeadingIsAboutEveryReceiverOnlyWhereReceiversTurn) {
+  const auto rows_about_all = [](bool receivers_turn) {
+    const Scratch scratch;
+    std::string rows = "t[s],tx,rx,tx_x[m],tx_y[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_yaw[rad],rssi[dBm]\n";
+    for (int k = 0; k < 60; ++k) {
+      const std::string robot = fmt::format("{},{},{}", 1 + k % 9, 2 + k % 7, 0.1 * k), station = "0,0,0";
+      rows += receivers_turn ? fmt::format("{},s,rover,{},{},{}\n", k, station, robot, -50 - k % 3)
+                             : fmt::format("{},rover,s,{},{},{}\n", k, robot, station, -50 - k % 3);
+    }
+    const auto world = scratch.write("world.xml",
+                                     "<world name=\"w\" dt=\"1\" until=\"1\"><station name=\"s\" at=\"0 0 1\"/>"
+                                     "<station name=\"rover\" at=\"1 0 1\"/><radio.multiwall/></world>");
+    const auto file = scratch.write("d.csv", rows);
+    const LinkModel model(world, file, plugins);
+    std::vector<std::string> names;
+    for (const Cause& cause : causes_on(plugins)) {
+      if (cause.id != "effect.body_shadow") continue;
+      for (const CauseRow& row : rows_for(cause, model, measurement_geometry(model, read_dataset(file))))
+        names.push_back(row.at(0));
+    }
+    return names;
+  };
+  EXPECT_EQ(rows_about_all(true), (std::vector<std::string>{"", "rover"}));
+  EXPECT_EQ(rows_about_all(false), std::vector<std::string>{"rover"});
+}
+
 // A cause that tells sending from receiving is about radios that do both; a reading in a hundred is not enough.
 TEST(CauseRows, SendingIsToldFromReceivingWhereARadioDoesBoth) {
   const auto asymmetric = [](int sent_by_b) {

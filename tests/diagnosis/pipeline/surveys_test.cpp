@@ -85,5 +85,38 @@ TEST(Survey, ReadingsEndAtTheWorldsFloorOnlyIfTheyReachIt) {
   EXPECT_EQ(end_with("-60"), std::nullopt);
 }
 
+// The six weakest readings are lost. A receiver that hears anything has a floor, then; of one that hears nothing below
+// a level not far off they were lost there, in shadows deeper than expected.
+TEST(Survey, LossesBelowTheStatedFloorAreNoOtherFloor) {
+  const Scratch scratch;
+  const auto world = flat(scratch, 3, "shadowing=\"2\" decorrelation=\"2\" rician_k=\"8\" per_reading=\"true\"");
+  const auto file = drawn_by(scratch, world);
+  std::vector<std::string> lines;
+  std::vector<double> levels;
+  std::ifstream drawn(file);
+  for (std::string line; std::getline(drawn, line);) {
+    lines.push_back(line);
+    if (lines.size() > 1) levels.push_back(std::stod(line.substr(line.rfind(',') + 1)));
+  }
+  drawn.close();
+  std::sort(levels.begin(), levels.end());
+  std::ofstream heard(file);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const auto last = lines[k].rfind(',') + 1;
+    heard << (k > 0 && std::stod(lines[k].substr(last)) < levels[6] ? lines[k].substr(0, last) : lines[k]) << '\n';
+  }
+  heard.close();
+  const std::string given = contents(world);
+  const std::string any = "sensitivity=\"-200\"";
+  const auto floor_named = [&](const std::string& sensitivity) {
+    std::string other = given;
+    other.replace(other.find(any), any.size(), "sensitivity=\"" + sensitivity + '"');
+    std::ofstream(world) << other;
+    return names(diagnose(world, file, plugins), "effect.rssi_floor");
+  };
+  EXPECT_TRUE(floor_named("-200"));
+  EXPECT_FALSE(floor_named(print_real(levels[6] - 6)));
+}
+
 }  // namespace
 }  // namespace muster::diagnosis

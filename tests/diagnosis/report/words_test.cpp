@@ -58,6 +58,18 @@ TEST(Sentence, SaysTheSizeAndOneOfTwoWordsByTheSign) {
   EXPECT_EQ(sentence(c), "jumps by 4.0 dB");
 }
 
+TEST(Gate, ALawInDoubtIsSuspectedAndItsRivalsAreNotSaidToBeExcluded) {
+  CauseEstimate field = wall(inference::Status::named, {});
+  field.id = "effect.shadowing_correlation";
+  field.covariates = {"reading"};
+  const auto text = [&] { return text_of(with(field), {"hall", "a.csv"}); };
+  EXPECT_TRUE(says(text(), "(1) it is effect.shadowing_correlation"));
+  EXPECT_FALSE(says(text(), "exclude all other causes"));
+  field.doubt = "a law of distance would do as well";
+  EXPECT_TRUE(says(text(), "hall seems wrong: one cause is named, but it is in doubt."));
+  EXPECT_TRUE(says(text(), "suspected: effect.shadowing_correlation"));
+}
+
 TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
   const CauseEstimate sure = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 2.4, 11, 21});
   EXPECT_EQ(confidence_of(sure), Confidence::confirmed);

@@ -1,0 +1,42 @@
+// What another field of the readings may be instead.
+#include "diagnosis/radio/laws/law_doubts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+CauseEstimate field_of(double evidence) {
+  CauseEstimate field;
+  field.id = "effect.shadowing_correlation";
+  field.evidence = evidence;
+  return field;
+}
+
+Diagnosis with_check(const std::string& id, double p) {
+  Diagnosis found;
+  found.checks = {{"~time", "time", inference::Kind::smooth, 2, std::log(0.3)},
+                  {id, "radio/st1", inference::Kind::named, 30, std::log(p)}};
+  return found;
+}
+
+// A station of -4.3 dB and a wall of 5 dB were in a field of 4 dB, where 2.5 dB were stated.
+TEST(LawDoubts, AnotherFieldIsInDoubtBesideWhatItMayHaveAbsorbed) {
+  EXPECT_EQ(doubt_of_field(with_check("effect.tx_offset", 3e-5), field_of(60)),
+            "what is not found makes a field wide, too, and tx_offset comes near (p = 3e-05)");
+  EXPECT_EQ(doubt_of_field(with_check("effect.tx_offset", 0.01), field_of(60)), "");
+  Diagnosis told = with_check("effect.tx_offset", 3e-5);
+  told.causes.resize(1);
+  told.causes[0].id = "effect.tx_offset";
+  EXPECT_EQ(doubt_of_field(told, field_of(60)), "");
+}
+
+TEST(LawDoubts, AFieldOfLittleEvidenceMayHaveAnotherLawOfDistance) {
+  EXPECT_NE(doubt_of_field(with_check("effect.tx_offset", 0.5), field_of(11)), "");
+  EXPECT_EQ(doubt_of_field(Diagnosis(), field_of(60)), "");
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
