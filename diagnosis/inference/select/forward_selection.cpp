@@ -151,7 +151,8 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   const Eigen::MatrixXd both = noise::hstack(design, lead.columns);
   if (log_p <= state.threshold())
     inflate(bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns));
-  for (const noise::StatedField& field : state.drawable()) {
+  // Of the noise beside the lead: without it the field holds the lead, too.
+  for (const noise::StatedField& field : state.drawable(fit.covariance)) {
     if (log_p <= state.threshold() && resembles_draws(state, both, field))
       inflate(drawn_inflation(state, model, c, field));
   }

@@ -226,8 +226,8 @@ std::vector<noise::Family> ModelState::likely_families(noise::Family first) cons
   return result;
 }
 
-std::vector<noise::StatedField> ModelState::drawable() const {
-  const noise::StatedField fitted = noise::stated_by(fit.covariance, within());
+std::vector<noise::StatedField> ModelState::drawable(const noise::Covariance& fitted_covariance) const {
+  const noise::StatedField fitted = noise::stated_by(fitted_covariance, within());
   if (problem_.stated.shadowing <= 0) return {fitted};
   if (alike(problem_.stated, fitted)) return {problem_.stated};
   return {problem_.stated, fitted};

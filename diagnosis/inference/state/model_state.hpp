@@ -73,9 +73,9 @@ class ModelState {
   const LongRangeRows& far() const;
   // Standard normal residuals, one set a column: the null of everything whitened.
   const noise::Sheet& normals() const { return normals_; }
-  // The fields that the errors may be draws of, by the model itself: the stated one, and the fitted one where it is
+  // The fields that the errors may be draws of, by the model itself: the stated one, and that of a fit where it is
   // another.
-  std::vector<noise::StatedField> drawable() const;
+  std::vector<noise::StatedField> drawable(const noise::Covariance& fitted) const;
   // Errors of the rows in draws of the model itself, with about such a field; no columns if it draws none. Kept, those
   // of a fitted field until it has changed.
   const Eigen::MatrixXd& drawn(const noise::StatedField& field) const;

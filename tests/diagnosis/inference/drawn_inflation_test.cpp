@@ -42,7 +42,7 @@ double inflation_in(uint64_t seed, const Draws& draws) {
   for (const Entry& entry : at.entries()) {
     if (entry.count() > most) most = entry.count(), widest = entry.candidate.get();
   }
-  return drawn_inflation(at, at.whitened_model(at.base()), *widest, at.drawable().back());
+  return drawn_inflation(at, at.whitened_model(at.base()), *widest, at.drawable(at.fit.covariance).back());
 }
 
 MatrixXd of_the_covariance(const ModelState& state, Index count) {
@@ -101,7 +101,7 @@ TEST(DrawnInflation, AsksForTheStatedFieldAndTheFittedOneOnceEach) {
     return MatrixXd::Constant(world.rssi.size(), count, field.shadowing).eval();
   };
   const ModelState state(problem, {});
-  const std::vector<noise::StatedField> fields = state.drawable();
+  const std::vector<noise::StatedField> fields = state.drawable(state.fit.covariance);
   ASSERT_EQ(fields.size(), 2u);
   EXPECT_EQ(fields[0].shadowing, 40);
   for (int again = 0; again < 2; ++again) {
@@ -151,10 +151,11 @@ TEST(ResemblesDraws, DataOfTheStatedFieldDoAndThoseOfAnotherDoNot) {
         world.readings, diagnosis::LinkRowLimits{}, std::vector<int>{}, true, std::make_shared<Smooth>());
     problem.drawn = [&](const noise::StatedField&, Index count) { return of_the_stated_field(problem, count, 40); };
     const ModelState of_another(problem, {});
-    EXPECT_FALSE(resembles_draws(of_another, of_another.base(), of_another.drawable().back())) << seed;
+    EXPECT_FALSE(resembles_draws(of_another, of_another.base(), of_another.drawable(of_another.fit.covariance).back()))
+        << seed;
     problem.measured = of_the_stated_field(problem, 1, 50 + seed).col(0);
     const ModelState of_its_own(problem, {});
-    own += resembles_draws(of_its_own, of_its_own.base(), of_its_own.drawable().back());
+    own += resembles_draws(of_its_own, of_its_own.base(), of_its_own.drawable(of_its_own.fit.covariance).back());
   }
   EXPECT_GE(own, 3);
 }
@@ -172,7 +173,7 @@ TEST(ResemblesDraws, DataThatNothingBlursDo) {
       problem.measured[i] = 3 * std::cos(0.8 * world.readings.rx_at(0, i)) + 3 * std::cos(world.readings.rx_at(1, i)) +
                             scatter * stream.normal(static_cast<uint64_t>(i));
     const ModelState state(problem, {});
-    EXPECT_EQ(resembles_draws(state, state.base(), state.drawable().back()), scatter < 0.1)
+    EXPECT_EQ(resembles_draws(state, state.base(), state.drawable(state.fit.covariance).back()), scatter < 0.1)
         << scatter << ' ' << state.fit.covariance.reading_variance();
   }
 }
