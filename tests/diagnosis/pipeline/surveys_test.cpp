@@ -85,6 +85,18 @@ TEST(Survey, ReadingsEndAtTheWorldsFloorOnlyIfTheyReachIt) {
   EXPECT_EQ(end_with("-60"), std::nullopt);
 }
 
+// The field that was fitted without the thing held the thing: in draws of it gains are four times those of chance, and
+// a gain of 163 was not beyond them.
+TEST(Survey, AThingIsHeldAgainstTheFieldBesideIt) {
+  const Diagnosis found = diagnosed("--generator run --mix two --lambda 60,400 --seed 92001", 1);
+  ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
+  EXPECT_EQ(found.causes[0].id, "effect.obstacle");
+  for (const CauseValue& v : found.causes[0].values) {
+    if (v.name == "x") EXPECT_NEAR(v.value, -24.05, 0.5);
+    if (v.name == "y") EXPECT_NEAR(v.value, -7.51, 0.5);
+  }
+}
+
 // The six weakest readings are lost. A receiver that hears anything has a floor, then; of one that hears nothing below
 // a level not far off they were lost there, in shadows deeper than expected.
 TEST(Survey, LossesBelowTheStatedFloorAreNoOtherFloor) {
