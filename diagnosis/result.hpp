@@ -157,7 +157,8 @@ struct OtherScatter {
 };
 
 struct Diagnosis {
-  // What lowers the error at left-out places most comes first, laws of readings after that, suspected causes last.
+  // What lowers the error at left-out places most comes first, laws of readings after that, what is in doubt and
+  // suspected causes last.
   std::vector<CauseEstimate> causes;
   std::vector<Unexplained> unexplained;
   std::vector<Unexplained> of_people;             // effects of time that those who walk about account for

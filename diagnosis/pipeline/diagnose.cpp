@@ -38,7 +38,8 @@ using Eigen::VectorXd;
 void in_order(Diagnosis& out) {
   std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
     const auto gain = [](const CauseEstimate& c) { return c.held_out ? c.held_out->gain : 0; };
-    return std::tuple(a.status, -gain(a), -a.lambda) < std::tuple(b.status, -gain(b), -b.lambda);
+    return std::tuple(a.status, !a.doubt.empty(), -gain(a), -a.lambda) <
+           std::tuple(b.status, !b.doubt.empty(), -gain(b), -b.lambda);
   });
   std::sort(out.searched.begin(), out.searched.end());
 }

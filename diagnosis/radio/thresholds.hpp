@@ -231,9 +231,13 @@ inline constexpr std::size_t repeats_that_tell = 5;
 inline constexpr double repeated_share = 0.9;
 // probability; of a false fading law or blockage in a clean world; chosen; CleanCase.IsSilent
 inline constexpr double law_alpha = 0.0005;
+// readings; beside a pair, whose mean tells the field there; chosen; ScatterByLevel.IsToldByTheLevelThatTheFieldMakes
+inline constexpr double readings_beside_a_pair = 3;
 // probability; of a dependence of scatter on level where there is none; chosen;
 // ScatterByLevel.IsToldWhereAReceiverCompresses
 inline constexpr double scatter_alpha = 1e-4;
+// probability; of such a dependence, below which a law of fading is in doubt; chosen; none
+inline constexpr double doubtful_scatter_alpha = 0.01;
 // probability; of a false field in a clean world; chosen; SealedField.OfASmoothFamilyIsNotTakenForTheStatedOne
 inline constexpr double field_alpha = 0.002;
 // nats; log p required of blockage beside other misfits; chosen; none

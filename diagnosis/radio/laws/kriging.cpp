@@ -157,8 +157,16 @@ CloseReadings KrigedReadings::close_readings() const {
   // Side by side the variogram of shadowing is linear, or parabolic for a smooth field.
   const noise::Sites& sites = field_.sites();
   std::vector<bool> paired(static_cast<std::size_t>(size()), false);
-  std::vector<double> apart, half;
+  std::vector<double> apart, half, beside;
   std::vector<Index> first;
+  const auto mean_of_others = [&](Index i, Index j) {
+    double sum = 0, count = 0;
+    for (int a = 0; a < field_.slots() && count < thresholds::readings_beside_a_pair; ++a) {
+      const Index k = field_.neighbour(i, a);
+      if (k >= 0 && k != j) sum += residual_[k], count += 1;
+    }
+    return count > 0 ? sum / count : 0;
+  };
   for (Index i = 0; i < size(); ++i) {
     for (int a = 0; a < field_.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
       const Index j = field_.neighbour(i, a);
@@ -168,13 +176,15 @@ CloseReadings KrigedReadings::close_readings() const {
       if (distance > thresholds::side_by_side) break;  // neighbours are sorted by distance
       apart.push_back(distance);
       first.push_back(i);
+      beside.push_back(mean_of_others(i, j));
       half.push_back(std::pow(residual_[i] - residual_[j], 2) / 2);
       paired[static_cast<std::size_t>(i)] = paired[static_cast<std::size_t>(j)] = true;
     }
   }
   const auto pairs = static_cast<Index>(half.size());
   const VectorXd differences = (2 * Eigen::Map<const Eigen::ArrayXd>(half.data(), pairs)).sqrt();
-  CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences, first};
+  const VectorXd about = Eigen::Map<const VectorXd>(beside.data(), pairs);
+  CloseReadings nothing{pairs, 0, std::numeric_limits<double>::infinity(), differences, first, about};
   if (pairs < thresholds::fewest_pairs) return nothing;
   const Eigen::Map<const Eigen::ArrayXd> at(apart.data(), pairs);
   const Eigen::Map<const VectorXd> y(half.data(), pairs);
@@ -183,7 +193,7 @@ CloseReadings KrigedReadings::close_readings() const {
   const bool parabola =
       smooth.known && std::log(rough.left / smooth.left) * static_cast<double>(pairs) / 2 > thresholds::parabola_nats;
   const Intercept& likelier = parabola ? smooth : rough;
-  return {pairs, likelier.value, likelier.standard_error, differences, first};
+  return {pairs, likelier.value, likelier.standard_error, differences, first, about};
 }
 
 }  // namespace muster::diagnosis

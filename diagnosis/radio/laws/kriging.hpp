@@ -35,6 +35,7 @@ struct CloseReadings {
   double variance = 0, standard_error = 0;  // dB^2; 0 and infinite without enough distances or pairs
   Eigen::VectorXd apart{};                  // dB, by which readings of a pair differ
   std::vector<Eigen::Index> first{};        // of each pair
+  Eigen::VectorXd beside{};                 // dB, mean residual of the nearest others: the field about each pair
 };
 
 // Where readings of a site share a part that is fixed there, laws are judged by the readings that repeat another one:

@@ -34,6 +34,7 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     return likeliest;
   }
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
+  if (replaces(s, best->cause)) found.causes.back().doubt = doubt_by_level(s, residual, field, found);
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
     if (&other != &*best && gap < thresholds::open_law_nats)

@@ -100,20 +100,18 @@ Successive successive(const LawSources& s, const VectorXd& residual, const LawTe
   return result;
 }
 
-// What is to be said where readings scatter otherwise at other levels: a receiver does that, and no law of fading; else
-// empty.
-std::string of_receiver(const LawSources& s, const VectorXd& residual, const KrigedReadings& field,
-                        const Diagnosis& found) {
+ScatterByLevel scatter_of(const LawSources& s, const VectorXd& residual, const KrigedReadings& field,
+                          const Diagnosis& found) {
   VectorXd level(field.size());
   for (Index i = 0, kriged = 0; i < residual.size(); ++i) {
     if (std::isfinite(residual[i])) level[kriged++] = found.mean[s.used[static_cast<std::size_t>(i)]];
   }
-  const ScatterByLevel scatter = scatter_by_level(field.close_readings(), level);
-  if (scatter.log_p > std::log(thresholds::scatter_alpha)) return "";
-  return fmt::format(
-      "single readings scatter by {:.1f} dB where levels are low and by {:.1f} dB where they are high: a receiver "
-      "does that, by its noise or as it compresses, and no law of fading, so that none is named",
-      scatter.weak, scatter.strong);
+  return scatter_by_level(field.close_readings(), level);
+}
+
+std::string in_words(const ScatterByLevel& scatter) {
+  return fmt::format("single readings scatter by {:.1f} dB where levels are low and by {:.1f} dB where they are high",
+                     scatter.weak, scatter.strong);
 }
 
 }  // namespace
@@ -129,7 +127,14 @@ std::vector<bool> unsure(const LawSources& s, const VectorXd& residual) {
 
 std::string doubt_of(const LawSources& s, const VectorXd& residual, const KrigedReadings& field, const Diagnosis& found,
                      const LawTest& law) {
-  if (replaces(s, law.cause)) return of_receiver(s, residual, field, found);
+  if (replaces(s, law.cause)) {
+    const ScatterByLevel scatter = scatter_of(s, residual, field, found);
+    return scatter.log_p > std::log(thresholds::scatter_alpha)
+               ? ""
+               : in_words(scatter) +
+                     ": a receiver does that, by its noise or as it compresses, and no law of fading, so that none is "
+                     "named";
+  }
   if (const double near = beside_walls(s, residual, law); near > 0)
     return fmt::format(
         "single readings scatter as by {} only where a move of {:.1f} m changes which walls their link crosses: walls "
@@ -141,6 +146,15 @@ std::string doubt_of(const LawSources& s, const VectorXd& residual, const Kriged
         "is none of single readings, and it is not named",
         law.cause, off.pairs, off.by_chance);
   return "";
+}
+
+std::string doubt_by_level(const LawSources& s, const VectorXd& residual, const KrigedReadings& field,
+                           const Diagnosis& found) {
+  const ScatterByLevel scatter = scatter_of(s, residual, field, found);
+  return scatter.log_p > std::log(thresholds::doubtful_scatter_alpha)
+             ? ""
+             : in_words(scatter) + fmt::format(" (p = {:.1g}), as behind a receiver that compresses or has noise",
+                                               std::exp(scatter.log_p));
 }
 
 std::string doubt_of_field(const Diagnosis& found, const CauseEstimate& field) {

@@ -16,6 +16,11 @@ std::vector<bool> unsure(const LawSources& sources, const Eigen::VectorXd& resid
 std::string doubt_of(const LawSources& sources, const Eigen::VectorXd& residual, const KrigedReadings& field,
                      const Diagnosis& found, const LawTest& law);
 
+// Why a law of fading that is named may be none: readings scatter otherwise at other levels, though not beyond chance.
+// Empty where they scatter alike.
+std::string doubt_by_level(const LawSources& sources, const Eigen::VectorXd& residual, const KrigedReadings& field,
+                           const Diagnosis& found);
+
 // Why a field that differs from the world's may be none: what shifts levels at places and is not found makes a field
 // wide, too. Empty where it is plain.
 std::string doubt_of_field(const Diagnosis& found, const CauseEstimate& field);

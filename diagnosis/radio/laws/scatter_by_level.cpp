@@ -42,7 +42,8 @@ double deviation(const VectorXd& differences, std::vector<Index>::const_iterator
 ScatterByLevel scatter_by_level(const CloseReadings& close, const VectorXd& level) {
   const Index pairs = close.pairs, third = pairs / 3;
   if (third < 10) return {};
-  const VectorXd at = level(close.first);
+  VectorXd at = level(close.first);
+  if (close.beside.size() == pairs) at += close.beside;
   const VectorXd by_level = ranks(at), by_size = ranks(close.apart);
   const double size = by_level.norm() * by_size.norm();
   const double z = size > 0 ? std::abs(by_level.dot(by_size)) / size * std::sqrt(static_cast<double>(pairs - 1)) : 0;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/diagnosis/walk.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -38,6 +40,18 @@ TEST(ScatterByLevel, IsNotToldOfOneLaw) {
   const ScatterByLevel found = scatter(0, 1);
   EXPECT_GT(found.log_p, std::log(0.01));
   EXPECT_NEAR(found.weak, found.strong, 0.2);
+}
+
+// The world expects one level throughout; shadowing makes it vary. Half of what exceeds 2 dB is lost, fading included.
+TEST(ScatterByLevel, IsToldByTheLevelThatTheFieldMakes) {
+  Walk walk = drawn_of_four({.rician_k = 8}, 600, 6);
+  const auto log_p = [&] {
+    const KrigedReadings field(walk.readings, walk.residual);
+    return scatter_by_level(field.close_readings(), Eigen::VectorXd::Zero(field.size())).log_p;
+  };
+  EXPECT_GT(log_p(), std::log(0.01));
+  walk.residual = (walk.residual.array() > 2).select((walk.residual.array() + 2) / 2, walk.residual);
+  EXPECT_LT(log_p(), std::log(1e-5));
 }
 
 TEST(ScatterByLevel, OfAFewPairsNothingIsTold) { EXPECT_EQ(scatter(-60, 0.4, 20).log_p, 0); }
