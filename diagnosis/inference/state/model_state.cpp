@@ -226,11 +226,11 @@ std::vector<noise::Family> ModelState::likely_families(noise::Family first) cons
   return result;
 }
 
-std::vector<noise::StatedField> ModelState::drawable(const noise::Covariance& fitted_covariance) const {
-  const noise::StatedField fitted = noise::stated_by(fitted_covariance, within());
-  if (problem_.stated.shadowing <= 0) return {fitted};
-  if (alike(problem_.stated, fitted)) return {problem_.stated};
-  return {problem_.stated, fitted};
+std::vector<noise::StatedField> ModelState::drawable(const noise::Covariance& fitted) const {
+  const noise::StatedField there = noise::stated_by(fitted, within());
+  if (problem_.stated.shadowing <= 0) return {there};
+  if (alike(problem_.stated, there)) return {problem_.stated};
+  return {problem_.stated, there};
 }
 
 const Eigen::MatrixXd& ModelState::drawn(const noise::StatedField& field) const {

@@ -94,7 +94,8 @@ bool lost_below_the_stated_floor(const LawSources& s, double floor) {
   const std::optional<double> stated = silent_below(s.model.simulation());
   const noise::Covariance& noise = s.state.fit.covariance;
   const double scatter = std::sqrt(noise.field_variance() + noise.reading_variance());
-  return stated && *stated<floor&& * stated> floor - thresholds::deep_shadow * scatter;
+  const double below = stated ? floor - *stated : 0;
+  return below > 0 && below < thresholds::deep_shadow * scatter;
 }
 
 // Tests for readings missing at low levels only. True if the cause is named.
