@@ -92,8 +92,8 @@ TEST(Survey, AThingIsHeldAgainstTheFieldBesideIt) {
   ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
   EXPECT_EQ(found.causes[0].id, "effect.obstacle");
   for (const CauseValue& v : found.causes[0].values) {
-    if (v.name == "x") EXPECT_NEAR(v.value, -24.05, 0.5);
-    if (v.name == "y") EXPECT_NEAR(v.value, -7.51, 0.5);
+    const double truth = v.name == "x" ? -24.055 : v.name == "y" ? -7.51 : v.value;
+    EXPECT_NEAR(v.value, truth, 0.5) << v.name;
   }
 }
 
