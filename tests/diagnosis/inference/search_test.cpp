@@ -153,18 +153,18 @@ TEST(Search, SimplestOfInseparableCausesIsNamed) {
 
 // A network that stands: `sites` places with their transmitters, each measured again and again.
 World standing_at(int sites) {
-  World world = world_of(varied(37, 2000));
-  std::vector<double> levels;
-  for (int site = 0; site < sites; ++site) levels.push_back(Stream(37).normal(static_cast<uint64_t>(site)));
+  const World driven = world_of(varied(37, 2000));
+  World world = driven;
   for (Index i = 0; i < world.rssi.size(); ++i) {
-    const Index site = i % sites, of = 97 * site;
-    world.readings.tx[static_cast<std::size_t>(i)] = world.readings.tx[static_cast<std::size_t>(of)];
-    world.readings.rx[static_cast<std::size_t>(i)] = world.readings.rx[static_cast<std::size_t>(of)];
-    world.readings.rx_yaw[static_cast<std::size_t>(i)] = 0;
-    world.readings.tx_at.col(i) = world.readings.tx_at.col(of);
-    world.readings.rx_at.col(i) = world.readings.rx_at.col(of);
-    world.base.row(i) = world.base.row(of);
-    world.rssi[i] = world.base.row(i) * Eigen::Vector3d(-35, 2, 4) + levels[static_cast<std::size_t>(site)] +
+    const Index site = i % sites, of = site * (world.rssi.size() / sites);
+    const auto to = static_cast<std::size_t>(i), from = static_cast<std::size_t>(of);
+    world.readings.tx[to] = driven.readings.tx[from];
+    world.readings.rx[to] = driven.readings.rx[from];
+    world.readings.rx_yaw[to] = 0;
+    world.readings.tx_at.col(i) = driven.readings.tx_at.col(of);
+    world.readings.rx_at.col(i) = driven.readings.rx_at.col(of);
+    world.base.row(i) = driven.base.row(of);
+    world.rssi[i] = world.base.row(i) * Eigen::Vector3d(-35, 2, 4) + Stream(37).normal(static_cast<uint64_t>(site)) +
                     world.recipe.fading * Stream(38).normal(static_cast<uint64_t>(i));
   }
   return world;
