@@ -167,18 +167,16 @@ TEST(MissingData, AFloorInTheTailTakesFew) {
   EXPECT_NEAR(few.floor, -100, 0.5);
 }
 
-// Three readings are lost in a shadow that the model does not know; weaker ones were received.
+// Of seven weak readings three are lost, and one of -96 dBm was received.
 TEST(MissingData, NoFloorIsAboveAReadingThatWasReceived) {
-  std::mt19937 random(7);
-  std::normal_distribution<double> error(0, 4);
   Eigen::VectorXd mean(1300), rssi(1300);
-  for (Eigen::Index i = 0; i < mean.size(); ++i) {
-    mean[i] = -50 - 0.03 * static_cast<double>(i);
-    rssi[i] = std::max(-93.0, std::round(mean[i] + error(random)));
-  }
-  rssi[1280] = -96;
-  for (const Eigen::Index lost : {1270, 1290, 1299}) rssi[lost] = std::nan("");
+  mean.head(1293).setLinSpaced(-75, -50);
+  mean.tail(7).setConstant(-92);
+  rssi = mean;
+  rssi.tail(7) << -91, std::nan(""), -93, std::nan(""), -92, std::nan(""), -96;
   EXPECT_EQ(missing_data(rssi, mean, 4).floor, -96);
+  rssi[1299] = -93;
+  EXPECT_EQ(missing_data(rssi, mean, 4).floor, -93);
 }
 
 // A receiver that loses half of all readings, and more of weak ones.
