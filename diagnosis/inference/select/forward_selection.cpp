@@ -112,12 +112,15 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
 // Numbers fitted for a candidate: its strengths, and where it is.
 Index numbers_of(const Candidate& c) { return c.design.width + (c.refinement.step.array() != 0).count(); }
 
+// True if nearly all rows recur at a few sites.
+bool stands(const ModelState& state) { return state.field().recurring().share() >= thresholds::standing_share; }
+
 // True if nearly all rows recur at a few sites, which the model would then fit one by one: each site has one level,
 // however often it is measured, and a term that is alike in all rows of a site needs as many of them left as it has
 // numbers.
 bool fits_each_site(const ModelState& state, const ScoredCandidate& lead) {
+  if (!stands(state)) return false;
   const noise::RecurringSites& recurring = state.field().recurring();
-  if (recurring.share() < thresholds::standing_share) return false;
   const double small = 1e-6 * lead.columns.cwiseAbs().maxCoeff();
   for (const std::vector<Index>& rows : recurring.sites()) {
     for (const Index row : rows)
@@ -151,8 +154,10 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   const Eigen::MatrixXd both = noise::hstack(design, lead.columns);
   if (log_p <= state.threshold())
     inflate(bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns));
-  // Of the noise beside the lead: without it the field holds the lead, too.
-  for (const noise::StatedField& field : state.drawable(fit.covariance)) {
+  // Of the noise beside the lead: without it the field holds the lead, too. Where a network stands, few sites decide,
+  // and a place has numbers enough to take the field of the best-fitting ones with it.
+  const noise::Covariance& beside = stands(state) ? state.fit.covariance : fit.covariance;
+  for (const noise::StatedField& field : state.drawable(beside)) {
     if (log_p <= state.threshold() && resembles_draws(state, both, field))
       inflate(drawn_inflation(state, model, c, field));
   }
