@@ -262,7 +262,7 @@ inline constexpr double block_side = 3;
 // blocks; fewest over which an interval may refute a term; chosen; none
 inline constexpr int fewest_refuting_blocks = 5;
 // share; of rows that recur at a site, from which a network stands; chosen;
-// Search.ACauseOfMoreNumbersThanAFewSitesLeaveIsNotNamed
+// StandingSites.ACauseOfMoreNumbersThanTheyLeaveIsNotNamed
 inline constexpr double standing_share = 0.9;
 // share; of a term's squares in one left-out part, from which the others say nothing of it; chosen;
 // Refutation.SparesWhatOneBlockAloneKnows

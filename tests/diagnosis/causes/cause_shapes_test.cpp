@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
+#include "diagnosis/planning/second_station.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/causes/place_axes.hpp"
 #include "tests/diagnosis/scratch.hpp"
@@ -117,6 +118,26 @@ TEST(CauseRows, ARadioThatOnlyTheDataNameIsOne) {
   };
   EXPECT_EQ(told(""), "about rover");
   EXPECT_EQ(told("<station name=\"rover\" at=\"1 0 1\"/>"), "about rover");
+}
+
+// A radio that is not where the map says casts no shadow that a second station would see from the side.
+TEST(CauseShape, APlaceOfWhatTheMapHasIsNoneOfAThing) {
+  muster_param radio{};
+  radio.name = radio.text = "radio";
+  radio.kind = MUSTER_REFERENCE;
+  muster_cause meaning{};
+  meaning.ranges_over = "radio";
+  muster_plugin plugin{};
+  plugin.cause = &meaning;
+  plugin.params = &radio;
+  CauseShape shape;
+  shape.place = PlaceShape::point;
+  shape.cause = {"effect.moved", {}, &plugin};
+  inference::Finding finding;
+  finding.thetas = {Eigen::Vector3d(0, 1, 2)};
+  EXPECT_EQ(places_of(shape, finding).size(), 1u);
+  plugin.param_count = 1;
+  EXPECT_TRUE(places_of(shape, finding).empty());
 }
 
 // What a robot sends is heard by stations that all look east: a pattern about their heading is one over the plan.

@@ -26,6 +26,16 @@ Candidate of_column(const std::string& name, const Eigen::VectorXd& column) {
   return result;
 }
 
+// Adds the last `count` of the candidates, which have no parameters, to the model.
+void add_last(ModelState& state, const std::vector<Candidate>& candidates, std::size_t count, double gain) {
+  for (std::size_t k = candidates.size() - count; k < candidates.size(); ++k) {
+    const Entry& entry = state.entry_of(candidates[k]);
+    state.terms.push_back(
+        {entry.candidate, Eigen::VectorXd(0), state.columns_of(candidates[k], Eigen::VectorXd(0)), gain});
+  }
+  state.refit();
+}
+
 // True if a swing in the model is refuted, where the readings have a swing of this lambda: 0 for none.
 bool swing_refuted(uint64_t seed, double lambda) {
   const auto world = world_of(varied(seed, 3000));
@@ -67,13 +77,10 @@ TEST(Refutation, SparesASmallOffsetThatNeighboursShow) {
     for (Index i = 0; i < column.size(); ++i)
       column[i] = rows.row_of()[static_cast<std::size_t>(i)] % 2 == 0 ? 0.0 : 1.0;
     std::vector<Candidate> with = causes;
-    const Candidate offset = of_column("offset", column);
-    with.push_back(offset);
+    with.push_back(of_column("offset", column));
     const Problem problem = problem_of(world, scaled_to(world, column, 60), with);
     ModelState state(problem, {});
-    const Entry& entry = state.entry_of(offset);
-    state.terms.push_back({entry.candidate, Eigen::VectorXd(0), state.columns_of(offset, Eigen::VectorXd(0)), 50});
-    state.refit();
+    add_last(state, with, 1, 50);
     KeptFolds folds;
     EXPECT_FALSE(most_refuted(state, folds).has_value()) << seed;
   }
@@ -98,10 +105,7 @@ TEST(Refutation, SparesWhatOneBlockAloneKnows) {
     with.push_back(of_column("corner", column));
     const Problem problem = problem_of(world, scaled_to(world, column, 300), with);
     ModelState state(problem, {});
-    const Entry& entry = state.entry_of(with.back());
-    state.terms.push_back(
-        {entry.candidate, Eigen::VectorXd(0), state.columns_of(with.back(), Eigen::VectorXd(0)), 300});
-    state.refit();
+    add_last(state, with, 1, 300);
     KeptFolds folds;
     EXPECT_FALSE(most_refuted(state, folds).has_value()) << seed;
   }
@@ -124,11 +128,7 @@ TEST(Refutation, RefutesWhatOneGroupLeftOutMakesWild) {
     with.push_back(of_column("other", other));
     const Problem problem = problem_of(world, Eigen::VectorXd::Zero(n), with);
     ModelState state(problem, {});
-    for (std::size_t k = with.size() - 2; k < with.size(); ++k) {
-      const Entry& entry = state.entry_of(with[k]);
-      state.terms.push_back({entry.candidate, Eigen::VectorXd(0), state.columns_of(with[k], Eigen::VectorXd(0)), 300});
-    }
-    state.refit();
+    add_last(state, with, 2, 300);
     KeptFolds folds;
     EXPECT_TRUE(most_refuted(state, folds).has_value()) << seed;
   }
