@@ -1,5 +1,7 @@
 #include "crash_report.hpp"
 
+#include <pthread.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -103,16 +105,30 @@ void write_crash(int signal) {
   line.write();
 }
 
-void write_exit() {
+bool write_exit() {
   const RunningCallback* in = running;
-  if (!in || !reports) return;
+  if (!in || !reports) return false;
   Line line;
   line << "muster: error: " << in->title_ << ": " << in->callback_ << " failed";
   if (in->tick_ >= 0) line << " at tick " << in->tick_;
   line << ": the plugin ends the whole process by exit(); expected it to throw, or to report and return\n";
   line.write();
-  ::_exit(plugin_fault);
+  return true;
 }
+
+namespace {
+
+[[noreturn]] void end_at_once(int code) {
+  for (;;) ::syscall(SYS_exit_group, code);
+}
+
+void tell_exit() {
+  if (write_exit()) end_at_once(plugin_fault);
+}
+
+[[noreturn]] void end_told(int code) { end_at_once(write_exit() ? plugin_fault : code); }
+
+}  // namespace
 
 void report_crashes() {
   static char stack[1 << 16];  // of its own: the fault may be an overflow of the thread's
@@ -121,8 +137,9 @@ void report_crashes() {
   alternate.ss_size = sizeof stack;
   ::sigaltstack(&alternate, nullptr);
   if (!std::exchange(reports, true)) {
-    std::atexit(write_exit);
-    std::at_quick_exit(write_exit);
+    std::atexit(tell_exit);
+    std::at_quick_exit(tell_exit);
+    ::pthread_atfork(nullptr, nullptr, [] { running = nullptr; });  // a plugin's child may end as it likes
   }
   for (const int signal : crashes) {
     struct sigaction before {};
@@ -144,3 +161,10 @@ void leave_crashes_to_parent() {
 }
 
 }  // namespace muster
+
+// In the place of libc's for plugins, since the program's own functions come first: no handler of exit() runs for
+// these.
+extern "C" {
+[[gnu::visibility("default")]] void _exit(int code) { muster::end_told(code); }
+[[gnu::visibility("default")]] void _Exit(int code) noexcept { muster::end_told(code); }
+}

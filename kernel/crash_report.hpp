@@ -18,7 +18,7 @@ class RunningCallback {
  private:
   void note() const;
   friend void write_crash(int signal);
-  friend void write_exit();
+  friend bool write_exit();
   const char *title_, *callback_;
   int64_t tick_;
   double time_;
@@ -30,8 +30,8 @@ class RunningCallback {
 const char* words_of_signal(int signal);
 
 // From now on a signal such as SIGSEGV in a plugin's code writes one line, "muster: error: TITLE: ...", to standard
-// error, and then ends the process as before; exit() in a callback does so, too, and ends the process with 3. Signals
-// that something else handles, such as a sanitizer, are left to it.
+// error, and then ends the process as before; exit() and _exit() in a callback do so, too, and end the process with 3.
+// Signals that something else handles, such as a sanitizer, are left to it.
 void report_crashes();
 
 // For a copy of this process whose parent tells how it ended: neither is reported any more.

@@ -1,10 +1,13 @@
 #include "process_guard.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <clocale>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 
@@ -50,6 +53,40 @@ std::pair<dev_t, ino_t> identity(int descriptor) {
   return ::fstat(descriptor, &now) == 0 ? std::pair{now.st_dev, now.st_ino} : std::pair{dev_t{}, ino_t{}};
 }
 
+// Read where it is told: umask() would have to change it, for a moment in which other threads may make a file.
+mode_t file_mask() {
+  char text[512] = {};
+  const int told = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+  if (told < 0) return 0;
+  const auto size = ::read(told, text, sizeof text - 1);
+  ::close(told);
+  const char* const at = size > 0 ? std::strstr(text, "\nUmask:") : nullptr;
+  return at ? static_cast<mode_t>(std::strtoul(at + std::strlen("\nUmask:"), nullptr, 8)) : 0;
+}
+
+using Limits = std::array<struct rlimit, RLIM_NLIMITS>;
+
+constexpr std::array<const char*, 16> limit_names{"CPU",      "FSIZE",  "DATA",    "STACK", "CORE",  "RSS",
+                                                  "NPROC",    "NOFILE", "MEMLOCK", "AS",    "LOCKS", "SIGPENDING",
+                                                  "MSGQUEUE", "NICE",   "RTPRIO",  "RTTIME"};
+static_assert(limit_names.size() == RLIM_NLIMITS);
+
+Limits limits() {
+  Limits result{};
+  for (std::size_t i = 0; i < result.size(); ++i) ::getrlimit(static_cast<__rlimit_resource>(i), &result[i]);
+  return result;
+}
+
+bool same(const struct rlimit& a, const struct rlimit& b) {
+  return a.rlim_cur == b.rlim_cur && a.rlim_max == b.rlim_max;
+}
+
+std::string octal(mode_t mask) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%04o", mask);
+  return text;
+}
+
 }  // namespace
 
 ProcessGuard::ProcessGuard()
@@ -57,7 +94,9 @@ ProcessGuard::ProcessGuard()
       folder_(folder()),
       signals_(signals()),
       handlers_(handlers()),
-      standard_{identity(STDOUT_FILENO), identity(STDERR_FILENO)} {}
+      standard_{identity(STDOUT_FILENO), identity(STDERR_FILENO)},
+      umask_(file_mask()),
+      limits_(limits()) {}
 
 std::string ProcessGuard::what() const {
   std::string result = float_.what();
@@ -73,6 +112,10 @@ std::string ProcessGuard::what() const {
     if (!same(now[i], handlers_[i])) add(std::string("takes the handler of SIG") + ::sigabbrev_np(watched[i]));
   if (identity(STDOUT_FILENO) != standard_[0]) add("closes or exchanges the standard output");
   if (identity(STDERR_FILENO) != standard_[1]) add("closes or exchanges the standard error");
+  if (file_mask() != umask_) add("changes the umask to " + octal(file_mask()));
+  const Limits limited = limits();
+  for (std::size_t i = 0; i < limited.size(); ++i)
+    if (!same(limited[i], limits_[i])) add(std::string("changes the limit RLIMIT_") + limit_names[i]);
   return result;
 }
 
@@ -86,6 +129,10 @@ void ProcessGuard::restore() const noexcept {
   const Handlers now = handlers();
   for (std::size_t i = 0; i < watched.size(); ++i)
     if (!same(now[i], handlers_[i])) ::sigaction(watched[i], &handlers_[i], nullptr);
+  if (file_mask() != umask_) ::umask(umask_);
+  const Limits limited = limits();
+  for (std::size_t i = 0; i < limited.size(); ++i)
+    if (!same(limited[i], limits_[i])) ::setrlimit(static_cast<__rlimit_resource>(i), &limits_[i]);
 }
 
 }  // namespace muster

@@ -1,6 +1,7 @@
 // Process-wide state that a library's code must leave unchanged.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 #include <array>
@@ -15,8 +16,8 @@
 namespace muster {
 
 // Saves that state when made, and restores it in its destructor at the latest: locales, the working directory, the
-// signal mask, handlers of signals that end a run, arithmetic. A standard output or error that was exchanged is told,
-// and not restored. Takes some microseconds: for loading and for single steps.
+// signal mask, handlers of signals that end a run, the umask, limits (ulimit), arithmetic. A standard output or error
+// that was exchanged is told, and not restored. Takes some microseconds: for loading and for single steps.
 class ProcessGuard {
  public:
   ProcessGuard();
@@ -36,6 +37,8 @@ class ProcessGuard {
   sigset_t signals_;
   std::array<struct sigaction, 6> handlers_;
   std::array<std::pair<dev_t, ino_t>, 2> standard_;  // output, error
+  mode_t umask_;
+  std::array<struct rlimit, RLIM_NLIMITS> limits_;
 };
 
 }  // namespace muster

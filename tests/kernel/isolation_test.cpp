@@ -190,6 +190,7 @@ TEST_F(Isolated, WritesNowhereElse) {
 TEST_F(Isolated, CreateAndDestroyAreTriedInProcessesOfTheirOwn) {
   EXPECT_THAT(error_of([&] { ending("kill", AfterCrash::stop, "where='create'"); }),
               HasSubstr("mine (toy.ends): create failed: its own process ended with a kill from outside (SIGKILL)"));
+  const test::LeftBehind plugin;  // that died as it was to be destroyed
   Simulation sim = ending("kill", AfterCrash::stop, "where='destroy'");
   step(sim, 2);
   EXPECT_THAT(error_of([&] { sim.close(); }),

@@ -1,4 +1,7 @@
 // What a plugin changes in the process that it shares with all others is told, and put back where that is possible.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
 #include <csignal>
 #include <filesystem>
 
@@ -28,6 +31,15 @@ TEST_F(ProcessState, ChangeInAStepIsThePluginsFault) {
   EXPECT_EQ(std::signal(SIGINT, SIG_DFL), SIG_DFL);
   EXPECT_EQ(fault("folder"), "changes the working directory to /");
   EXPECT_EQ(std::filesystem::current_path(), folder_before);
+  const mode_t mask = ::umask(022);
+  EXPECT_EQ(fault("umask"), "changes the umask to 0777");
+  EXPECT_EQ(::umask(mask), mode_t{022}) << "put back";
+  struct rlimit before {};
+  struct rlimit after {};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  EXPECT_EQ(fault("limit"), "changes the limit RLIMIT_AS");
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &after), 0);
+  EXPECT_EQ(after.rlim_cur, before.rlim_cur);
 }
 
 TEST_F(ProcessState, ChangeInCreateIsThePluginsFault) {

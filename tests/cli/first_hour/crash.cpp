@@ -1,5 +1,8 @@
 // Ends the process in its third step: by a null pointer, on the run's thread, on all of its workers or on a thread of
-// its own, or by exit(). Or tells more than anybody reads.
+// its own, or by exit() and its like. Or tells more than anybody reads.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <muster/parallel.hpp>
 #include <muster/plugin.hpp>
@@ -14,8 +17,9 @@ using namespace muster;
 struct Crash {
   static constexpr auto id = "test.crash/1", summary = "crashes";
   static constexpr auto phase = MUSTER_OBSERVE;
-  static constexpr Param params[] = {flag("parallel", false, "on the run's threads"),
-                                     choice("how", "segfault|exit|quick_exit|thread|tells", "what it does")};
+  static constexpr Param params[] = {
+      flag("parallel", false, "on the run's threads"),
+      choice("how", "segfault|exit|quick_exit|thread|tells|_exit|_Exit|child", "what it does")};
 
   explicit Crash(Setup& s) : parallel(s.value("parallel")), how(s.value("how")), cell(s.write<Cell>("self/cell")) {}
 
@@ -29,8 +33,19 @@ struct Crash {
       for (int i = 0; i < 5000; ++i) k.event("line\x1b[31m");
       throw std::runtime_error(std::string(1'000'000, 'e'));
     }
+    if (k[how] == 5) ::_exit(0);
+    if (k[how] == 6) std::_Exit(0);
+    if (k[how] == 7) return wait_for_child();
     if (k[parallel] == 0) *nowhere = 1;
     each(k, 8, [](std::size_t) { *nowhere = 1; });
+  }
+
+  // A process of the plugin's own ends as it likes.
+  static void wait_for_child() {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(5);
+    int status = 0;
+    if (::waitpid(child, &status, 0) != child || WEXITSTATUS(status) != 5) throw std::runtime_error("the child's code");
   }
 
   struct Cell {

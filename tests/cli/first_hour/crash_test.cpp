@@ -30,12 +30,15 @@ TEST(Crash, OfAStepNamesThePluginAndTheTick) {
 }
 
 TEST(Crash, ExitOfAPluginIsItsFault) {
-  for (const char* how : {"exit", "quick_exit"})
+  for (const char* how : {"exit", "quick_exit", "_exit", "_Exit"})
     EXPECT_EQ(
         crashed(std::string("how=\"") + how + '"', "1").err,
         "muster: error: world.xml:1:36: mine (test.crash): step failed at tick 3: the plugin ends the whole process "
         "by exit(); expected it to throw, or to report and return\n");
-  EXPECT_EQ(crashed("how=\"exit\"", "1").exit, 3);
+  for (const char* how : {"exit", "_exit"}) EXPECT_EQ(crashed(std::string("how=\"") + how + '"', "1").exit, 3);
+  const auto outcome = crashed("how=\"child\"", "1");
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
 }
 
 TEST(Crash, OfAThreadOfAPluginsOwnIsTold) {

@@ -1,8 +1,10 @@
 // Does one thing in one step, or in create() or destroy(), that ends its process, holds it up, or reaches beyond its
 // own.
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -22,7 +24,7 @@ struct Ending {
   static constexpr auto id = "toy.ends/1", summary = "ends its process";
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
-      choice("how", "never|segfault|exit|abort|kill|loop|thread|reaches|umask|handler|folder|behind|before|keeps",
+      choice("how", "never|segfault|exit|abort|kill|loop|thread|reaches|umask|handler|folder|behind|before|keeps|limit",
              "what it does"),
       choice("where", "step|create|destroy", "in which callback"),
       integer("tick", 3, 0, 1000, "in the step of this tick"),
@@ -85,9 +87,19 @@ struct Ending {
       case 10:
         if (::chdir("/") != 0) std::abort();
         break;
+      case 14:
+        limit_memory();
+        break;
       default:
         break;
     }
+  }
+
+  static void limit_memory() {
+    struct rlimit limit {};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0) std::abort();
+    limit.rlim_cur = std::min({limit.rlim_cur - 4096, limit.rlim_max, rlim_t{1} << 44});
+    if (::setrlimit(RLIMIT_AS, &limit) != 0) std::abort();
   }
 
   static int* volatile nowhere;
