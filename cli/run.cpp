@@ -315,7 +315,9 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
       saved.after_tick(run);
       if (view) view->after_tick();
       if (pacing) pacing->wait(run.time());
-      progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
+      const double share = static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks);
+      progress.at(share);
+      if (!pacing) progress.tell_if_endless(share);
     }
   } catch (const Error& first) {
     try {

@@ -6,6 +6,7 @@
 
 #include "installation.hpp"
 #include "run_options.hpp"
+#include "shell_word.hpp"
 #include "sweep/job_table.hpp"
 #include "sweep/summary.hpp"
 #include "sweep_runs.hpp"
@@ -59,20 +60,11 @@ std::optional<sweep::Share> share_of(const SweepWords& words) {
 
 std::string absolute(const std::string& path) { return fs::weakly_canonical(fs::absolute(path)).string(); }
 
-// As one word of a shell.
-std::string quoted_word(const std::string& text) {
-  static const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789/._-+=:,@%";
-  if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + '\'';
-}
-
 // The command of one share, from any folder.
 std::string command(const SweepWords& words, const std::string& index, int of) {
-  std::string result = quoted_word(fs::read_symlink("/proc/self/exe").string()) + " sweep " +
-                       quoted_word(absolute(words.file)) + " --out " + quoted_word(absolute(words.out));
-  for (const std::string& folder : words.plugins) result += " --plugins " + quoted_word(absolute(folder));
+  std::string result = shell_word(fs::read_symlink("/proc/self/exe").string()) + " sweep " +
+                       shell_word(absolute(words.file)) + " --out " + shell_word(absolute(words.out));
+  for (const std::string& folder : words.plugins) result += " --plugins " + shell_word(absolute(folder));
   if (words.jobs != 1) result += fmt::format(" --jobs {}", words.jobs);
   if (words.workers != 1) result += fmt::format(" --workers {}", words.workers);
   return result + fmt::format(" --index {} --of {}", index, of);
@@ -82,7 +74,7 @@ void print_slurm(const SweepWords& words, const sweep::SweepFile& file) {
   fmt::print(
       "#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH --cpus-per-task={}\n#SBATCH --requeue\n"
       "exec {}\n",
-      quoted_word("sweep_" + file.name()), words.slurm, words.jobs * words.workers,
+      shell_word("sweep_" + file.name()), words.slurm, words.jobs * words.workers,
       command(words, "\"$SLURM_ARRAY_TASK_ID\"", words.slurm));
 }
 
@@ -152,19 +144,7 @@ class Sweep {
   }
 
   Exit work_in_processes(const sweep::Share& share, int count) {
-    Progress progress("muster sweep " + file_.name());
-    std::unique_ptr<sweep::JobTable> watched;  // a connection made after the forks
-    auto looked = std::chrono::steady_clock::now();
-    return in_processes(
-        count, [&] { return work(share); },
-        [&] {
-          const auto now = std::chrono::steady_clock::now();
-          if (now - looked < std::chrono::seconds(1)) return;
-          looked = now;
-          if (!watched) watched = std::make_unique<sweep::JobTable>(words_.out);
-          const auto counts = watched->counts(share);
-          progress.at(fmt::format("{} of {} runs", counts.done, counts.all));
-        });
+    return work_on_table(words_.out, share, count, "muster sweep " + file_.name(), "runs", [&] { return work(share); });
   }
 
   // What was begun and not ended: by workers that still run elsewhere, or that were killed.

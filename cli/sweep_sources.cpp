@@ -19,14 +19,6 @@ namespace fs = std::filesystem;
 
 const std::string own_file = "sweep", program = "program", plugin = "plugin ";  // names of sources that are no paths
 
-// Empty where it cannot be read.
-std::string digest_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "";
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  return hexadecimal(key_of(bytes));
-}
-
 // The file, and what its attributes name beside it; so on from XML to XML.
 void add_named(const fs::path& file, std::set<fs::path>& found) {
   if (!found.insert(file.lexically_normal()).second) return;
@@ -62,6 +54,13 @@ fs::path path_of(const std::string& name, const sweep::SweepFile& file, const Li
 }
 
 }  // namespace
+
+std::string digest_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "";
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  return hexadecimal(key_of(bytes));
+}
 
 sweep::Sources sources_of(const sweep::SweepFile& file, const std::vector<fs::path>& libraries,
                           const Library::SearchPath& plugins) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "loader/library.hpp"
@@ -9,6 +10,9 @@
 #include "sweep/sweep_file.hpp"
 
 namespace muster::cli {
+
+// Of a file's bytes, in hexadecimal digits; empty where it cannot be read.
+std::string digest_of(const std::filesystem::path& file);
 
 // `libraries`: of all plugins that any run uses.
 sweep::Sources sources_of(const sweep::SweepFile& file, const std::vector<std::filesystem::path>& libraries,

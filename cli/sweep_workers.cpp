@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -77,6 +78,21 @@ Exit in_processes(int count, const std::function<Exit()>& work, const std::funct
     std::this_thread::sleep_for(pause);
   }
   return result;
+}
+
+Exit work_on_table(const std::filesystem::path& folder, const sweep::Share& share, int count, const std::string& what,
+                   const std::string& unit, const std::function<Exit()>& work) {
+  Progress progress(what);
+  std::unique_ptr<sweep::JobTable> watched;  // a connection made after the forks
+  auto looked = std::chrono::steady_clock::now();
+  return in_processes(count, work, [&] {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - looked < std::chrono::seconds(1)) return;
+    looked = now;
+    if (!watched) watched = std::make_unique<sweep::JobTable>(folder);
+    const auto counts = watched->counts(share);
+    progress.at(fmt::format("{} of {} {}", counts.done, counts.all, unit));
+  });
 }
 
 }  // namespace muster::cli

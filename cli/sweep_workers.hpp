@@ -1,9 +1,11 @@
 // Work that several processes share. A plugin that crashes ends one of them, and none outlives the one that made them.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
+#include "sweep/job_table.hpp"
 #include "text/error.hpp"
 
 namespace muster::cli {
@@ -13,5 +15,10 @@ namespace muster::cli {
 // as done: what it left is left in the table. An
 // interrupt is passed on to them. Call it before anything makes a thread.
 Exit in_processes(int count, const std::function<Exit()>& work, const std::function<void()>& meanwhile = {});
+
+// The same, for work on the table of jobs in that folder; shows how many of the share are done: "muster sweep office: 3
+// of 20 runs".
+Exit work_on_table(const std::filesystem::path& folder, const sweep::Share& share, int count, const std::string& what,
+                   const std::string& unit, const std::function<Exit()>& work);
 
 }  // namespace muster::cli

@@ -63,12 +63,16 @@ class Progress {
   void at(double share);
   // What is being done, where its share of the whole is not known. Where the output is no terminal, a line every 30 s.
   void at(const std::string& now);
+  // Notes once, some seconds after the begin, that at this pace the rest takes hours or more.
+  void tell_if_endless(double share);
 
  private:
   std::string what_;
   bool shown_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), spoken_ = begun_;
   int last_ = -1;
+  unsigned asked_ = 0;
+  bool told_ = false;
 };
 
 // Throws Error where the world has no radio channel: no link between radios.

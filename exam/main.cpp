@@ -1,4 +1,5 @@
-// muster_exam: makes sealed cases for a diagnosis, and grades its reports.
+// muster_exam: makes sealed cases for a diagnosis, and grades its reports. muster exam run (cli/exam_run.cpp) runs
+// them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "exam/generators.hpp"
 #include "exam/grading/grade.hpp"
 #include "exam/planned_readings.hpp"
-#include "exam/run.hpp"
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
 
   muster_exam make --seed S --cases N --out DIR [--generator drawn|run|field|COMMAND] [--mix KIND,KIND...]
                    [--rows MIN MAX] [--lambda L[,M] | --size weak|medium|strong] [--effects ID,ID...] [--first N]
-                   [--walls FILE] [--style STYLE]
+                   [--walls FILE] [--style STYLE] [--keep]
       --generator drawn: the exam's own plans, fields and effects (without --generator)
                   run: the simulator's own readings over such plans, with cause plugins planted in its worlds
                   field: as people measure: a flat, a mesh, a walk, a drive (--style flat|mesh|walk|drive: one of them)
@@ -26,14 +26,15 @@ constexpr const char* usage = R"(muster_exam: sealed cases for radio diagnosis
       --mix: drawn has clean, one, two, three, outside, each and mixed, run clean, one, two, three and each, field
       clean, one, two, three and four. "each": every effect in turn; "mixed", as without --mix: all but three.
       --rows, --lambda, --size: of drawn and run. --walls: of drawn, the floor plan of all cases, a table as worlds refer
-      to (walls.csv); without it each case draws its own.
+      to (walls.csv); without it each case draws its own. --keep: cases that DIR has are left alone.
       writes DIR/case_0001/{world.xml, measured.csv}, walls.csv and second.csv where the generator has them, ... and
       DIR/answers/case_0001.json ...
   muster_exam run DIR [--reports DIR] [--command COMMAND] [--jobs N] [--generator ... as make, with --seed and --cases]
       runs a diagnosis over the cases, by default muster diagnose {world} --data {data} --json; what it prints becomes
       DIR/reports/case_0001.txt ..., what it cost DIR/reports/costs.csv. Cases that have a report are left alone.
       Slots of COMMAND: {world}, {data}, {second} (the other readings), {answer} (for follow alone), {out} (a folder of
-      its own). With --generator the cases are made first, but for those in DIR.
+      its own). With --generator the cases are made first, but for those in DIR. Several such commands may share an
+      exam, one that was killed goes on where it was. By the program muster alone: muster exam run DIR
   muster_exam grade --answers DIR [--reports DIR] [--json | --table]
       holds reports (DIR/reports/case_0001.txt, or .json, or case_0001/diagnosis.json) against the answers; --table
       sets them beside the goals
@@ -52,8 +53,9 @@ Example: muster exam make --seed 7 --cases 40 --out exam
 int make(int argc, char** argv) {
   Arguments known = options_of_generators();
   known["--out"] = {"a folder"};
+  known["--keep"] = {};
   const Arguments arguments = parsed(argc, argv, known);
-  make_cases(arguments, required(arguments, "--out"), false);
+  make_cases(arguments, required(arguments, "--out"), arguments.contains("--keep"));
   return 0;
 }
 
@@ -61,40 +63,6 @@ int make(int argc, char** argv) {
 std::filesystem::path reports_of(const Arguments& arguments, const std::filesystem::path& exam) {
   const auto at = arguments.find("--reports");
   return at == arguments.end() ? exam / "reports" : std::filesystem::path(at->second[0]);
-}
-
-// Throws where options of a generator are given, naming all of them.
-void refuse_of_generators(const Arguments& arguments) {
-  std::vector<std::string> given;
-  for (const auto& [option, values] : options_of_generators())
-    if (arguments.contains(option)) given.push_back(option);
-  if (given.empty()) return;
-  const std::string last = given.back();
-  given.pop_back();
-  throw std::invalid_argument(given.empty() ? last + " needs --generator"
-                                            : fmt::format("{} and {} need --generator", fmt::join(given, ", "), last));
-}
-
-int run(int argc, char** argv) {
-  Arguments known = options_of_generators();
-  known.merge(Arguments{{"", {}}, {"--reports", {"a folder"}}, {"--command", {"a command"}}, {"--jobs", {"a number"}}});
-  const Arguments arguments = parsed(argc, argv, known);
-  const auto given = arguments.find("");
-  if (given == arguments.end() || given->second.size() != 1)
-    throw std::invalid_argument("expected one folder, as make wrote it");
-  if (arguments.contains("--generator"))
-    make_cases(arguments, given->second[0], true);
-  else
-    refuse_of_generators(arguments);
-  RunOrder order{given->second[0], reports_of(arguments, given->second[0]), "", 1};
-  if (const auto at = arguments.find("--command"); at != arguments.end()) order.command = at->second[0];
-  if (order.command.empty()) order.command = default_command();
-  if (const auto at = arguments.find("--jobs"); at != arguments.end())
-    order.jobs = number("--jobs", at->second[0], 1, 1000);
-  const RunOutcome outcome = run_cases(order);
-  fmt::print("{} cases run, {} had a report, {} failed\n", outcome.ran, outcome.kept, outcome.failed.size());
-  for (const std::string& words : outcome.failed) fmt::print("{}\n", words);
-  return outcome.failed.empty() ? 0 : 1;
 }
 
 int run_grade(int argc, char** argv) {
@@ -132,7 +100,10 @@ int main(int argc, char** argv) {
   const std::string verb = argc > 1 && !asks ? argv[1] : "--help";
   try {
     if (verb == "make") return make(argc, argv);
-    if (verb == "run") return run(argc, argv);
+    if (verb == "run") {
+      fmt::print(stderr, "muster_exam run: the program muster runs cases: muster exam run DIR\n");
+      return 2;
+    }
     if (verb == "grade") return run_grade(argc, argv);
     if (verb == "follow") return follow(argc, argv);
     if (verb == "effects") return list_effects(argc, argv);

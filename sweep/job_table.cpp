@@ -8,7 +8,7 @@ namespace muster::sweep {
 namespace {
 
 constexpr std::int64_t application = 0x6d737770;  // "mswp", by which the file is known as a job table
-constexpr std::int64_t version = 1;
+constexpr std::int64_t version = 2;
 
 // begun counts how often a job was: once more for each worker that was killed in it. A second row of a job in `run` is
 // refused by SQLite itself.
@@ -17,13 +17,18 @@ CREATE TABLE source (file TEXT PRIMARY KEY, digest TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE metric (number INTEGER PRIMARY KEY, name TEXT NOT NULL, unit TEXT NOT NULL);
 CREATE TABLE worker (number INTEGER PRIMARY KEY AUTOINCREMENT);
 CREATE TABLE job (number INTEGER PRIMARY KEY, combination INTEGER NOT NULL, seed INTEGER NOT NULL,
-  worker INTEGER REFERENCES worker, begun INTEGER NOT NULL DEFAULT 0, done INTEGER NOT NULL DEFAULT 0);
+  label TEXT NOT NULL DEFAULT '', worker INTEGER REFERENCES worker, begun INTEGER NOT NULL DEFAULT 0, done INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX job_open ON job (done, begun, number);
 CREATE TABLE run (job INTEGER PRIMARY KEY REFERENCES job, worker INTEGER NOT NULL REFERENCES worker,
   time REAL NOT NULL, digest TEXT NOT NULL, fault TEXT NOT NULL);
 CREATE TABLE value (job INTEGER REFERENCES run, metric INTEGER REFERENCES metric, value REAL,
   PRIMARY KEY (job, metric)) WITHOUT ROWID;
 )";
+
+// Of a row of number, combination, seed, and in that column the label.
+Job job_in(const Statement& row, int label) {
+  return {row.integer(0), static_cast<std::size_t>(row.integer(1)), row.integer(2), row.text(label)};
+}
 
 std::filesystem::path made(std::filesystem::path folder) {
   std::filesystem::create_directories(folder);
@@ -70,6 +75,19 @@ void JobTable::fill(const Sources& sources, const std::vector<MetricTitle>& metr
   filling.commit();
 }
 
+void JobTable::add(const Sources& sources) {
+  Transaction adding(database_);
+  std::int64_t number = database_.number("SELECT count(*) FROM job");
+  for (const auto& [name, digest] : sources) {
+    if (Statement(database_, "SELECT 1 FROM source WHERE file = ?").with(name).step()) continue;
+    Statement(database_, "INSERT INTO source VALUES (?, ?)").with(name).with(digest).step();
+    Statement insert(database_, "INSERT INTO job (number, combination, seed, label) VALUES (?, ?, 0, ?)");
+    insert.with(number).with(number).with(name).step();
+    ++number;
+  }
+  adding.commit();
+}
+
 Sources JobTable::sources() {
   Sources result;
   Statement query(database_, "SELECT file, digest FROM source");
@@ -105,14 +123,14 @@ std::optional<Job> JobTable::claim(const Share& share) {
   {
     std::map<std::int64_t, bool> lives;
     Statement query(database_,
-                    "SELECT number, combination, seed, worker FROM job WHERE done = 0 AND number % ? = ? "
+                    "SELECT number, combination, seed, worker, label FROM job WHERE done = 0 AND number % ? = ? "
                     "ORDER BY begun, number");
     query.with(static_cast<std::int64_t>(share.of)).with(static_cast<std::int64_t>(share.index - 1));
     while (!found && query.step()) {
       const std::int64_t holder = query.integer(3);  // 0: none
       const auto [known, is_new] = lives.emplace(holder, false);
       if (is_new && holder != 0) known->second = is_held(holder);
-      if (!known->second) found = Job{query.integer(0), static_cast<std::size_t>(query.integer(1)), query.integer(2)};
+      if (!known->second) found = job_in(query, 4);
     }
   }
   if (found) {
@@ -166,34 +184,44 @@ Counts JobTable::counts(const Share& share) {
 std::vector<Job> JobTable::left() {
   std::vector<Job> result;
   Statement query(database_,
-                  "SELECT number, combination, seed, worker FROM job WHERE done = 0 AND worker IS NOT NULL "
+                  "SELECT number, combination, seed, worker, label FROM job WHERE done = 0 AND worker IS NOT NULL "
                   "ORDER BY number");
   while (query.step()) {
-    if (is_held(query.integer(3))) continue;
-    result.push_back({query.integer(0), static_cast<std::size_t>(query.integer(1)), query.integer(2)});
+    if (!is_held(query.integer(3))) result.push_back(job_in(query, 4));
   }
   return result;
+}
+
+void JobTable::reopen(const std::vector<std::int64_t>& numbers) {
+  Transaction reopening(database_);
+  for (const std::int64_t number : numbers) {
+    Statement(database_, "DELETE FROM value WHERE job = ?").with(number).step();
+    Statement(database_, "DELETE FROM run WHERE job = ?").with(number).step();
+    Statement(database_, "UPDATE job SET done = 0, begun = 0, worker = NULL WHERE number = ?").with(number).step();
+  }
+  reopening.commit();
 }
 
 std::vector<DoneJob> JobTable::done() {
   std::vector<DoneJob> result;
   const std::size_t width = metrics().size();
+  std::map<std::int64_t, std::vector<double>> values;
+  Statement cells(database_, "SELECT job, metric, value FROM value");
+  while (cells.step()) {
+    auto& row = values.try_emplace(cells.integer(0), width, std::numeric_limits<double>::quiet_NaN()).first->second;
+    row.at(static_cast<std::size_t>(cells.integer(1))) = cells.real(2);
+  }
   Statement query(database_,
-                  "SELECT number, combination, seed, time, digest, fault FROM job JOIN run ON run.job = job.number "
-                  "ORDER BY number");
-  Statement values(database_, "SELECT value FROM value ORDER BY job, metric");
+                  "SELECT number, combination, seed, label, time, digest, fault FROM job JOIN run ON run.job = "
+                  "job.number ORDER BY number");
   while (query.step()) {
     DoneJob job;
-    job.number = query.integer(0);
-    job.combination = static_cast<std::size_t>(query.integer(1));
-    job.seed = query.integer(2);
-    job.time = query.real(3);
-    job.digest = query.text(4);
-    job.fault = query.text(5);
-    job.values.resize(width, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < width && job.fault.empty(); ++i) {
-      if (values.step()) job.values[i] = values.real(0);
-    }
+    static_cast<Job&>(job) = job_in(query, 3);
+    job.time = query.real(4);
+    job.digest = query.text(5);
+    job.fault = query.text(6);
+    const auto row = values.find(job.number);
+    job.values = row == values.end() ? std::vector(width, std::numeric_limits<double>::quiet_NaN()) : row->second;
     result.push_back(std::move(job));
   }
   return result;

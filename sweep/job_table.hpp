@@ -18,6 +18,7 @@ struct Job {
   std::int64_t number = 0;  // from 0; combination by combination
   std::size_t combination = 0;
   std::int64_t seed = 0;
+  std::string label;  // of one that was added by its name
 };
 
 struct MetricTitle {
@@ -30,7 +31,7 @@ struct RunResult {
   double time = 0;  // s, simulated
   std::string digest;
   std::string fault;           // empty: none
-  std::vector<double> values;  // a metric; NaN where there is none
+  std::vector<double> values;  // of each metric; NaN where there is none
 };
 
 struct DoneJob : Job, RunResult {};
@@ -58,6 +59,8 @@ class JobTable {
   // Nothing is done where another has filled it meanwhile.
   void fill(const Sources& sources, const std::vector<MetricTitle>& metrics, std::size_t combinations,
             const std::vector<std::int64_t>& seeds);
+  // A job for each of these sources that the table has not, called by its name.
+  void add(const Sources& sources);
   Sources sources();
   std::vector<MetricTitle> metrics();
 
@@ -67,6 +70,8 @@ class JobTable {
   // Of the claimed job. Throws Error where it is not this worker's, so that no job is recorded twice.
   void record(const Job& job, const RunResult& result);
   void release(const Job& job);
+  // Done jobs that are to be done again.
+  void reopen(const std::vector<std::int64_t>& numbers);
 
   Counts counts(const Share& share = {});
   // Claimed by workers that are no more.

@@ -50,63 +50,25 @@ TEST_F(Program, MakesCasesAndGradesThem) {
   EXPECT_NE(graded.text.find("\"missing\":[\"case_0003\"]"), std::string::npos) << graded.text;
 }
 
-TEST_F(Program, RunsACommandOverTheCasesAndGoesOnWhereItWasStopped) {
-  const std::string out = folder / "exam";
-  ASSERT_EQ(run("make --seed 3 --cases 3 --rows 400 600 --mix clean --out " + out).code, 0);
-  // Fails on the second case: it leaves no report, and the next run has only that one to do.
-  const std::string command =
-      R"( --command "test -f {data} && case {world} in *2) echo broken >&2; exit 65;; esac; echo '{\"verdict\":\"adequate\"}'")";
-  Outcome sat = run("run " + out + command);
-  EXPECT_EQ(sat.code, 1);
-  EXPECT_EQ(sat.text, "3 cases run, 0 had a report, 1 failed\ncase_0002: exit code 65: broken\n");
-  EXPECT_EQ(read(folder / "exam/reports/case_0001.txt"), "{\"verdict\":\"adequate\"}\n");
-  sat = run("run " + out + R"( --jobs 2 --command "echo '{\"verdict\":\"adequate\"}'")");
-  EXPECT_EQ(sat.text, "1 cases run, 2 had a report, 0 failed\n");
+// Silence on a clean case is right. `make --keep` adds what is not there.
+TEST_F(Program, GradesReportsBesideGoals) {
+  const std::string out = folder / "exam", make = "make --seed 3 --rows 400 600 --mix clean --out " + out;
+  ASSERT_EQ(run(make + " --cases 2").code, 0);
+  const std::string second = read(folder / "exam/case_0002/measured.csv");
+  fs::remove_all(folder / "exam/case_0001");
+  const Outcome kept = run(make + " --cases 3 --keep");
+  EXPECT_EQ(std::count(kept.text.begin(), kept.text.end(), '\n'), 1) << kept.text;
+  EXPECT_FALSE(fs::exists(folder / "exam/case_0001")) << "its answer is there";
+  EXPECT_EQ(read(folder / "exam/case_0002/measured.csv"), second);
+  fs::create_directories(folder / "exam/reports");
+  for (const char* name : {"case_0001", "case_0002", "case_0003"})
+    std::ofstream(folder / "exam/reports" / (std::string(name) + ".txt")) << "{\"verdict\":\"adequate\"}\n";
   const Outcome graded = run("grade --table --answers " + out);
   EXPECT_EQ(graded.code, 0);
   EXPECT_NE(graded.text.find("| false name on clean worlds | 0/3 = 0 % [0.0, 70.8] | <= 0.7 % | reached |"),
             std::string::npos)
       << graded.text;
-  EXPECT_EQ(run("run").code, 2);
-}
-
-// A slot's name in a folder's is none: what stands there would be read by the shell.
-TEST_F(Program, RunsNoNameOfACase) {
-  const std::string odd = "case_{data}$(touch exam_touched)";
-  fs::create_directories(folder / "exam" / odd);
-  const Outcome ran = run("run " + (folder / "exam").string() + " --command \"printf %s {world}\"");
-  EXPECT_EQ(ran.code, 0) << ran.text;
-  EXPECT_FALSE(fs::exists("exam_touched"));
-  EXPECT_EQ(read(folder / "exam/reports" / (odd + ".txt")), (folder / "exam" / odd).string());
-}
-
-// The script of docs/how-to/bring_your_own_exam.md, as a reader would copy it.
-std::string example() {
-  const std::string page = read(fs::path(MUSTER_SOURCE_DIR) / "docs/how-to/bring_your_own_exam.md");
-  const std::size_t from = page.find("```sh\n") + 6;
-  return page.substr(from, page.find("```", from) - from);
-}
-
-TEST_F(Program, TakesCasesOfAnybodysGenerator) {
-  fs::create_directories(folder);
-  std::ofstream(folder / "rooms.sh") << example();
-  const std::string generator = " --generator 'sh " + (folder / "rooms.sh").string() + "' --seed 4 --cases 2",
-                    out = folder / "exam";
-  // Stands in for a diagnosis: it names what the first case hides, and is silent on all others.
-  const std::string command =
-      R"( --command "case {world} in *1) echo '{\"verdict\":\"extended\",\"causes\":[{\"id\":\"effect.tx_offset\",\"label\":\"radio/a\"}]}';; *) echo '{\"verdict\":\"adequate\"}';; esac")";
-  Outcome sat = run("run " + out + generator + command);
-  EXPECT_EQ(sat.text, "case_0001: made\ncase_0002: made\n2 cases run, 0 had a report, 0 failed\n");
-  EXPECT_FALSE(fs::exists(folder / "exam/case_0001/answer.json"));
-  const std::string first = read(folder / "exam/case_0001/measured.csv");
-  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 601);
-  const Outcome graded = run("grade --table --answers " + out);
-  EXPECT_NE(graded.text.find("| top name right, lambda >= 50 | 1/1"), std::string::npos) << graded.text;
-  EXPECT_NE(graded.text.find("| false name on clean worlds | 0/1"), std::string::npos) << graded.text;
-  // What is there stays.
-  sat = run("run " + out + generator + command);
-  EXPECT_EQ(sat.text, "0 cases run, 2 had a report, 0 failed\n");
-  EXPECT_EQ(read(folder / "exam/case_0001/measured.csv"), first);
+  EXPECT_EQ(run("run exam").text, "muster_exam run: the program muster runs cases: muster exam run DIR\n");
 }
 
 TEST_F(Program, SaysWhatAForeignGeneratorLacks) {
@@ -115,8 +77,6 @@ TEST_F(Program, SaysWhatAForeignGeneratorLacks) {
             std::string::npos);
   EXPECT_EQ(run("make --generator 'true' --seed 1 --cases 1 --out " + out).text,
             "muster_exam make: " + out + "/case_0001: the generator wrote no world.xml\n");
-  EXPECT_EQ(run("run " + out + " --seed 1").text, "muster_exam run: --seed needs --generator\n");
-  EXPECT_EQ(run("run " + out + " --seed 1 --cases 3").text, "muster_exam run: --cases and --seed need --generator\n");
 }
 
 TEST_F(Program, MakesCampaignsOfTheField) {
@@ -154,7 +114,7 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run("make --help").text, run("--help").text);
   EXPECT_EQ(run("make --seed 3 --cases 1 --out x --depth 2").text,
             "muster_exam make: there is no option --depth; expected one of --cases, --effects, --first, --generator, "
-            "--lambda, "
+            "--keep, --lambda, "
             "--mix, --out, --rows, --seed, --size, --style, --walls\n");
   EXPECT_EQ(run("grade exam").text, "muster_exam grade: \"exam\" is one word too many; did you mean --answers exam?\n");
   EXPECT_EQ(run("make --seed 7 --cases 1 --rows 2000 --out ex").text,

@@ -11,7 +11,7 @@ namespace {
 std::string sat(const std::string& options) {
   const test::Folder folder;
   const std::string exam = (folder / "exam").string();
-  const Outcome run = run_command(std::string(MUSTER_EXAM) + " run " + exam + " " + options + " --command '" +
+  const Outcome run = run_command(std::string(MUSTER_PROGRAM) + " exam run " + exam + " " + options + " --command '" +
                                   MUSTER_PROGRAM + " diagnose {world} --data {data} --json'");
   EXPECT_EQ(run.code, 0) << run.text;
   const Outcome graded = run_command(std::string(MUSTER_EXAM) + " grade --table --answers " + exam);

@@ -116,7 +116,7 @@ TEST(JobTable, RecordsNoJobTwiceAndNoneOfAnother) {
   JobTable table(folder.path());
   const auto job = table.claim({});
   ASSERT_TRUE(job);
-  EXPECT_THROW(table.record({0, 0, 1}, {1, "d", "", {1}}), Error);  // the living one's
+  EXPECT_THROW(table.record({0, 0, 1, ""}, {1, "d", "", {1}}), Error);  // the living one's
   table.record(*job, {1, "d", "", {1}});
   EXPECT_THROW(table.record(*job, {1, "d", "", {1}}), Error);
   EXPECT_THROW(table.release(*job), Error);
@@ -184,6 +184,36 @@ TEST(JobTable, ARunThatFailedHasNoValues) {
   EXPECT_EQ(table.counts().failed, 1);
   EXPECT_TRUE(std::isnan(table.done()[0].values[0]));
   EXPECT_EQ(table.done()[1].values[0], 5);
+}
+
+TEST(JobTable, AddsAJobForEachNewSource) {
+  const Folder folder;
+  JobTable table(folder.path());
+  table.fill(sources, {{"m", "s"}}, 0, {});
+  table.add({{"a", "1"}, {"b", "2"}});
+  EXPECT_EQ(table.claim({})->label, "a");
+  table.add({{"0", "3"}, {"a", "4"}});
+  EXPECT_EQ(table.counts().all, 3);
+  EXPECT_EQ(table.claim({})->label, "b");
+  const auto last = table.claim({});
+  EXPECT_EQ(last->label, "0");
+  EXPECT_EQ(last->number, 2);
+  EXPECT_EQ(table.sources(), (Sources{{"0", "3"}, {"a", "1"}, {"b", "2"}, {"sweep", "1"}}));
+}
+
+TEST(JobTable, AReopenedJobIsDoneAgain) {
+  const Folder folder;
+  fill(folder, 1, {1, 2});
+  JobTable table(folder.path());
+  for (const double value : {5.0, 6.0}) table.record(*table.claim({}), {1, "", "broken", {value}});
+  EXPECT_EQ(table.done()[1].values[0], 6) << "of a failed run, too";
+  table.reopen({0});
+  EXPECT_EQ(table.counts().done, 1);
+  EXPECT_EQ(table.counts().failed, 1);
+  const auto again = table.claim({});
+  ASSERT_EQ(again->number, 0);
+  table.record(*again, {1, "d", "", {7}});
+  EXPECT_EQ(table.done()[0].values[0], 7);
 }
 
 TEST(JobTable, RefusesFilesOfOthers) {

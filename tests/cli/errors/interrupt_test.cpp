@@ -39,6 +39,24 @@ TEST_P(Interrupt, EndsTheRunWithWholeRecords) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/instance_good_cell.csv.part"));
 }
 
+TEST(EndlessRun, IsToldWhenItWillEnd) {
+  const ProgramFolder folder;
+  std::string many;
+  for (int i = 0; i < 40; ++i) many += "<test.good name=\"good" + std::to_string(i) + "\"/>";
+  folder.write("world.xml", world_of(many));
+  Surroundings around;
+  around.meanwhile = [](int process) {
+    ::usleep(7'000'000);
+    ::kill(process, SIGINT);
+  };
+  const auto outcome =
+      folder.muster({"run", "world.xml", "--plugins", toys, "--until", "9e10", "--digest-every", "100000"}, around);
+  EXPECT_EQ(outcome.exit, 130);
+  EXPECT_THAT(outcome.err,
+              testing::ContainsRegex("muster: note: muster run [a-z]* ?takes another [0-9]+ (years|days|hours) at this "
+                                     "pace; Ctrl-C ends it with all records whole\n"));
+}
+
 // Killed at once, a run of more than a second leaves what it had recorded.
 TEST(Output, OfAKilledRunIsThereUpToTheLastSecond) {
   const ProgramFolder folder;
