@@ -35,7 +35,7 @@ const char* Diagnosis::verdict() const {
   if (!unexplained.empty()) return "unexplained";
   if (named()) return "extended";
   if (interrupted) return "interrupted";
-  return unstated_field || other_scatter ? "unexplained" : "adequate";
+  return unstated_field || stays || other_scatter ? "unexplained" : "adequate";
 }
 
 }  // namespace muster::diagnosis

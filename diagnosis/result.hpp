@@ -65,6 +65,7 @@ struct Unexplained {
   std::optional<inference::HeldOutGain> held_out;
   std::vector<inference::Elsewhere> elsewhere{};
   std::vector<inference::Alternative> alternatives{};  // causes that explain it nearly as well
+  double reach = 0;  // dB, between the lowest and the highest of its effects, but for 1 % at each end
 
   bool changes_in_time() const;
 };
@@ -144,6 +145,13 @@ struct AddedRadio {
   bool stands = false;
 };
 
+// Stays, each of many readings in turn at one place, that differ by more than their readings, in a way that depends on
+// time and has no name.
+struct Stays {
+  int count = 0;
+  double sd = 0, reading_sd = 0;  // dB: of their means, and of single readings
+};
+
 // A field that neighbouring readings share and the world does not state.
 struct UnstatedField {
   double shadowing = 0, decorrelation = 0;  // dB; m
@@ -169,6 +177,7 @@ struct Diagnosis {
   double residual_sd = 0;   // dB, of the fitted world
   noise::Covariance noise;
   std::optional<UnstatedField> unstated_field;
+  std::optional<Stays> stays;
   std::optional<OtherScatter> other_scatter;  // sought where nothing else was found
   std::optional<inference::HeldOutGain> held_out;
   std::optional<inference::Unseen> unseen;      // held-out errors behind held_out, in the order of `used`

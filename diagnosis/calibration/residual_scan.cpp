@@ -175,7 +175,9 @@ class Scanner {
 
   void look_at_columns() {
     for (const Covariate& column : data_.covariates) {
-      if (column.values.empty())
+      if (!column.no_cause.empty())
+        result_.not_tested.push_back(column.name + ": " + column.no_cause);
+      else if (column.values.empty())
         add_names(column.name, column.factor);
       else if (const auto values = used(column.values); varies(values, 0))
         add_number(column.name, "", values, 5);

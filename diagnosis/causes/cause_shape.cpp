@@ -8,6 +8,12 @@ namespace muster::diagnosis {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+double Axis::value_at(double entry) const {
+  if (recorded) return recorded->at(std::clamp(entry / recorded->length(), 0.0, 1.0));
+  if (logarithmic) return std::clamp(std::exp(entry), least, most);
+  return cyclic ? std::remainder(entry, 2 * M_PI) : entry;
+}
+
 std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) const {
   std::map<std::string, double> result = held;
   if (place == PlaceShape::point) {
@@ -21,10 +27,7 @@ std::map<std::string, double> CauseShape::parameters(const VectorXd& theta) cons
     result[coordinates[3]] = theta[2] + y;
   }
   for (std::size_t k = 0; k < axes.size(); ++k) {
-    const double value = theta[1 + place_entries(place) + static_cast<Index>(k)];
-    result[axes[k].parameter] = axes[k].logarithmic ? std::clamp(std::exp(value), axes[k].least, axes[k].most)
-                                : axes[k].cyclic    ? std::remainder(value, 2 * M_PI)
-                                                    : value;
+    result[axes[k].parameter] = axes[k].value_at(theta[1 + place_entries(place) + static_cast<Index>(k)]);
   }
   return result;
 }

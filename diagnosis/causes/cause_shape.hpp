@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/causes/cause_model.hpp"
+#include "diagnosis/data/recorded_time.hpp"
 #include "diagnosis/inference/state/candidate.hpp"
 
 namespace muster::diagnosis {
@@ -16,9 +17,12 @@ struct Axis {
   std::string parameter;  // of the plugin; "" for an entry of a place
   bool logarithmic = false;
   double lower = 0, upper = 0, step = 0;
-  std::vector<double> values;  // start values, as in theta: logarithms on a logarithmic axis
-  double least = 0, most = 0;  // bounds of a logarithmic axis: exp(log(x)) may exceed x
-  bool cyclic = false;         // an angle
+  std::vector<double> values;                      // start values, as in theta: logarithms on a logarithmic axis
+  double least = 0, most = 0;                      // bounds of a logarithmic axis: exp(log(x)) may exceed x
+  bool cyclic = false;                             // an angle
+  std::shared_ptr<const RecordedTime> recorded{};  // of a time in a log with pauses: theta is the shortened time
+
+  double value_at(double entry) const;  // of the parameter, at an entry of theta
 };
 
 // Geometry of a cause's place.

@@ -46,16 +46,14 @@ Axis carrier(const muster_param& p) {
 
 Axis moment(const muster_param& p, const RecordedTime& time, bool alone) {
   // A jump outside this range is an offset; an onset may be at the start of the data.
-  const double from = alone ? time.at(thresholds::earliest_jump) : time.low(), to = time.at(thresholds::latest_jump);
-  std::vector<double> values{from, time.at(0.25), time.at(0.5)};
-  if (alone) {
-    values = evenly(from, to, 29);
-    if (time.has_pauses()) {
-      values = evenly(thresholds::earliest_jump, thresholds::latest_jump, 29);
-      for (double& v : values) v = time.at(v);
-    }
-  }
-  return {p.name, false, from, to, 0.012 * time.length(), values};
+  const auto at = [&](double share) { return time.has_pauses() ? share * time.length() : time.at(share); };
+  const double from = at(alone ? thresholds::earliest_jump : 0), to = at(thresholds::latest_jump);
+  std::vector<double> values{from, at(0.25), at(0.5)};
+  if (alone) values = evenly(from, to, 33);
+  Axis axis{p.name, false, from, to, 0.012 * time.length(), values};
+  // All of a pause is as likely, and a walk of short steps would not cross it.
+  if (time.has_pauses()) axis.recorded = std::make_shared<const RecordedTime>(time);
+  return axis;
 }
 
 }  // namespace

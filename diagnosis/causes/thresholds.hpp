@@ -16,10 +16,10 @@ inline constexpr double least_left = 1e-6;
 inline constexpr double most_cycles = 128;
 // s; shortest period of a swing, unless the data are short; chosen; none
 inline constexpr double shortest_period = 4;
-// share; of the data before which a jump is an offset; chosen; none
-inline constexpr double earliest_jump = 0.08;
+// share; of the data before which a jump is an offset; chosen; FieldLog.AStepIsNamedNearTheEndOfALog
+inline constexpr double earliest_jump = 0.02;
 // share; of the data after which a jump is an offset; chosen; none
-inline constexpr double latest_jump = 0.92;
+inline constexpr double latest_jump = 0.98;
 // share; of the data within which what settles is a jump; chosen; none
 inline constexpr double shortest_settling = 0.1;
 // rows; up to which each has all start values; chosen; none

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/data/clock.hpp"
+#include "diagnosis/data/column_doubts.hpp"
 #include "diagnosis/data/dataset_checks.hpp"
 #include "diagnosis/data/sent_power.hpp"
 #include "diagnosis/data/thresholds.hpp"
@@ -71,6 +72,20 @@ bool varies(const std::vector<double>& values) {
   return false;
 }
 
+// Says why nothing depends on a column, where that is so. Below an SNR of 0 dB a level is mostly noise.
+void doubt(Covariate& column, Dataset& data) {
+  if (measures_reception(column.name))
+    column.no_cause = "it measures what was received, as the level does, which therefore does not depend on it";
+  else if (!data.t.empty() && !column.values.empty() &&
+           goes_with_time(column.name, column.values, data.t, {data.tx.level.begin(), data.tx.level.end()}))
+    column.no_cause = "it counts on as time does, and what depends on time is sought there";
+  if (column.name.find("snr") == column.name.npos || column.values.empty()) return;
+  const auto noisy = std::count_if(column.values.begin(), column.values.end(), [](double v) { return v < 0; });
+  if (noisy > 0)
+    data.notes.push_back(std::to_string(noisy) + " of " + std::to_string(data.rows()) + " readings have a " +
+                         quote(column.name) + " below 0: their levels are noise more than signal, and look too high");
+}
+
 void read_covariates(Dataset& data) {
   const auto is_known = [&](const std::string& name) {
     if (name == "distance") return !data.has_places();
@@ -79,13 +94,14 @@ void read_covariates(Dataset& data) {
   };
   for (std::size_t c = 0; c < data.table->columns().size(); ++c) {
     if (is_known(data.table->columns()[c].name) || data.table->is_replaced(c)) continue;
-    Covariate covariate{data.table->columns()[c].label(), {}, {}};
+    Covariate covariate{data.table->columns()[c].label(), {}, {}, {}};
     const bool number = data.table->is_numeric(c);
     if (number)
       covariate.values = data.table->reals(c, {.empty = true});
     else
       covariate.factor = data.table->texts(c, {.empty = true});
     if (number ? varies(covariate.values) : covariate.factor.levels.size() > 1) {
+      doubt(covariate, data);
       data.covariates.push_back(std::move(covariate));
     } else {
       data.notes.push_back("column " + quote(covariate.name) + " is the same in all rows, so nothing can depend on it");

@@ -18,6 +18,7 @@ struct Covariate {
   std::string name;            // its column's label, such as "battery[V]"
   std::vector<double> values;  // NaN: empty; empty if it is a factor
   Factor factor;
+  std::string no_cause{};  // why nothing can be said to depend on it; empty: it is tested
 };
 
 struct Dataset {

@@ -26,6 +26,18 @@ inline constexpr double strongest_level = 30;
 // dBm; below which no level is read, thermal noise in 1 Hz; derived; DatasetFaults.LevelsThatNoReceiverGives
 inline constexpr double weakest_level = -174;
 
+// further columns
+
+// readings; of a sender, from which a column is seen to count them; chosen; none
+inline constexpr std::size_t fewest_counted = 20;
+// counts; by which a counter rises from reading to reading, lost ones included; chosen; ColumnDoubts.CountersGoWithTime
+inline constexpr double largest_count = 20;
+// share; of readings that a counter counts, but for what is garbled; chosen; ColumnDoubts.CountersGoWithTime
+inline constexpr double counted_share = 0.97;
+// squared correlation; with time, from which a column that is called a clock is one; chosen;
+// ColumnDoubts.WhatOnlyTendsWithTimeIsNoClock
+inline constexpr double steady_rise = 0.9995;
+
 // powers
 
 // powers; that a radio may be set to, beyond which its column is another quantity; chosen; none

@@ -277,6 +277,11 @@ inline constexpr double sure_of_growth = 200;
 // share; of its gain that a term keeps on rows left out, given their neighbours, where it is not refuted by the plain
 // error there; chosen; Refutation.SparesASmallOffsetThatNeighboursShow
 inline constexpr double borne_out_share = 0.5;
+// readings; a stay on average, from which what happens in time is held against how stays differ; chosen;
+// Stays.DecideWhatHappensBetweenThem
+inline constexpr double readings_a_stay = 5;
+// share; of the variance of columns in time within stays, up to which they differ between stays alone; chosen; none
+inline constexpr double within_stays = 0.3;
 // cells; effective number below which the sandwich variance is not used; chosen; none
 inline constexpr double fewest_cells = 10;
 // deviance; behind the best within which the middle of a posterior may lie; derived;

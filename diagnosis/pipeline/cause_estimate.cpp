@@ -1,9 +1,12 @@
 #include "diagnosis/pipeline/cause_estimate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/radio/thresholds.hpp"
+#include "text/number.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -21,6 +24,22 @@ CauseValue value_of(const muster_param& p, double value, double below, double ab
 struct Reach {
   double below = 0, above = 0;  // of a 95 % interval
 };
+
+bool is_moment_beside_pauses(const CauseShape& shape, const std::string& name) {
+  return std::any_of(shape.axes.begin(), shape.axes.end(),
+                     [&](const Axis& axis) { return axis.recorded && axis.parameter == name; });
+}
+
+// By quantiles: all of a pause is as likely, and it may be thousands of times as long as what lies beside it.
+Reach reach_of_moment(const CauseShape& shape, const inference::Finding& f, const std::string& name, double middle) {
+  std::vector<double> moments;
+  for (const VectorXd& theta : f.thetas) moments.push_back(shape.parameters(theta).at(name));
+  std::sort(moments.begin(), moments.end());
+  const auto at = [&](double share) {
+    return moments[static_cast<std::size_t>(std::lround(share * static_cast<double>(moments.size() - 1)))];
+  };
+  return {std::max(0.0, middle - at(0.025)), std::max(0.0, at(0.975) - middle)};
+}
 
 // 95 % half-widths of the searched parameters about the found theta, by the posterior samples on each parameter's
 // scale.
@@ -43,7 +62,9 @@ std::map<std::string, Reach> reaches(const CauseShape& shape, const inference::F
     const double mean = total / count, sd = std::sqrt(std::max(0.0, squares[name] / count - mean * mean));
     if (sd + std::abs(mean) < same) continue;
     Reach reach{std::max(0.0, thresholds::normal95 * sd - mean), std::max(0.0, thresholds::normal95 * sd + mean)};
-    if (shape.cause.parameter(name).flags & MUSTER_LOG)
+    if (is_moment_beside_pauses(shape, name))
+      reach = reach_of_moment(shape, f, name, middle.at(name));
+    else if (shape.cause.parameter(name).flags & MUSTER_LOG)
       reach = {middle.at(name) * -std::expm1(-reach.below), middle.at(name) * std::expm1(reach.above)};
     result[name] = reach;
   }
@@ -130,6 +151,20 @@ CauseEstimate cause_estimate(const inference::Finding& f, const CauseCandidate& 
   }
   out.title = with_values(shape.cause.meaning().title, shape.cause, out.values);
   return out;
+}
+
+std::string doubt_at_own_bound(const CauseEstimate& cause) {
+  for (const CauseValue& v : cause.values) {
+    const bool is_strength = v.unit == "dB" || v.unit.empty();
+    const double bound = v.value - v.minimum < v.maximum - v.value ? v.minimum : v.maximum;
+    // Of two at least, and two is as good.
+    const bool is_count = v.unit.empty() && bound == v.minimum && bound > 1 && bound == std::floor(bound);
+    if (!is_strength || is_count || bound == 0 || (v.unit.empty() && bound == 1)) continue;
+    if (std::abs(v.value - bound) <= thresholds::at_bound * (v.maximum - v.minimum))
+      return fmt::format("its {} ends at the bound of {}, so that something else may do this", v.name,
+                         print_real(bound) + (v.unit.empty() ? "" : ' ' + v.unit));
+  }
+  return "";
 }
 
 }  // namespace muster::diagnosis

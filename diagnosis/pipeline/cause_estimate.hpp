@@ -9,4 +9,8 @@ namespace muster::diagnosis {
 // Without posterior samples, as for a cause set aside, intervals of places and times have zero width.
 CauseEstimate cause_estimate(const inference::Finding& finding, const CauseCandidate& cause);
 
+// Why a cause whose strength ends at the bound that its plugin declares is no sure name: what it stands for would need
+// more than there can be. Empty where none does. A bound of 0, and a share that is whole, are no such bounds.
+std::string doubt_at_own_bound(const CauseEstimate& cause);
+
 }  // namespace muster::diagnosis

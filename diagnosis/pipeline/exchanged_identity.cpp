@@ -42,7 +42,7 @@ std::optional<CauseEstimate> exchange_instead_of(const CauseEstimate& finding, D
   for (const auto& [path, value] : found.parameters) fitted.set(path, value);
   double least = thresholds::exchange_alike * variance(measured - found.mean(rows));
   std::optional<CauseEstimate> result;
-  for (const Hypothesis& h : hypotheses_of(setup, found.seen.walls).all) {
+  for (const Hypothesis& h : hypotheses_of(setup, found).all) {
     if (h.cause->needs_own_world() || h.cause->id == finding.id ||
         std::find(h.row.begin(), h.row.end(), finding.row) == h.row.end())
       continue;

@@ -60,6 +60,10 @@ ObservedColumns observed_columns(const Dataset& data, const std::vector<Index>& 
   ObservedColumns out;
   for (const Covariate& column : data.covariates) {
     const std::string name = column.name.substr(0, column.name.find('['));
+    if (!column.no_cause.empty()) {
+      out.untested.push_back(name + ": " + column.no_cause);
+      continue;
+    }
     const bool is_run = name == "run";
     const std::size_t settings = is_run ? used.size() : thresholds::most_settings;
     inference::Factor factor{name, {}};

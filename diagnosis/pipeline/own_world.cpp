@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/inference/score/refine.hpp"
@@ -39,18 +42,34 @@ VectorXd bounded_least_squares(const MatrixXd& design, VectorXd y, const VectorX
   return result;
 }
 
-// Sum of squares about a level and a multiple, not negative, of these levels.
-double rest_about(const VectorXd& levels, const VectorXd& y) {
-  const VectorXd x = levels.array() - levels.mean(), z = y.array() - y.mean();
+// Sum of squares about a multiple, not negative, of these levels; both are centred.
+double rest_about(const VectorXd& x, const VectorXd& z) {
   const double slope = x.squaredNorm() > 0 ? std::max(0.0, x.dot(z) / x.squaredNorm()) : 0;
   return (z - slope * x).squaredNorm();
+}
+
+// Each less the mean of its group.
+VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) {
+  std::map<std::size_t, std::pair<double, double>> sums;  // and counts
+  for (Index i = 0; i < values.size(); ++i) {
+    auto& [sum, count] = sums[group[static_cast<std::size_t>(i)]];
+    sum += values[i];
+    count += 1;
+  }
+  VectorXd result = values;
+  for (Index i = 0; i < values.size(); ++i) {
+    const auto& [sum, count] = sums[group[static_cast<std::size_t>(i)]];
+    result[i] -= sum / count;
+  }
+  return result;
 }
 
 // A world with a hypothesis, linearised at its own fit.
 struct OwnWorld {
   Hypothesis hypothesis;
-  double squares = 0;  // left by least squares
-  VectorXd rest;       // measured less the mean at zero parameters
+  double squares = 0;   // left by least squares
+  double levelled = 0;  // the same with a level of each radio
+  VectorXd rest;        // measured less the mean at zero parameters
   MatrixXd design;
   std::vector<std::array<End, 2>> ends{};
   VectorXd values{};  // of the parameters, by least squares
@@ -60,6 +79,14 @@ struct Likelihood {
   double nats = -std::numeric_limits<double>::infinity();
   noise::Covariance noise{};
 };
+
+// Leaves so many of them, of which half at most are of one cause: a plan may be turned in fourteen ways.
+template <class Each, class CauseOf>
+void keep_first(std::vector<Each>& all, std::size_t most, const CauseOf& cause_of) {
+  std::map<const Cause*, std::size_t> kept;
+  std::erase_if(all, [&](const Each& each) { return ++kept[cause_of(each)] > most / 2; });
+  if (all.size() > most) all.erase(all.begin() + static_cast<std::ptrdiff_t>(most), all.end());
+}
 
 // Numbers that a fault needs, beside choices and rows of the world.
 std::ptrdiff_t numbers_of(const muster_plugin& plugin) {
@@ -82,22 +109,30 @@ class Judge {
       of_used_.push_back(known[i]);
     }
     y_ = levels.measured(of_used_);
+    // What each radio sends, or each hears where one sends.
+    const bool of_senders = s_.data.tx.levels.size() > 1;
+    for (const Index row : kept_)
+      radio_.push_back((of_senders ? s_.data.tx : s_.data.rx).level[static_cast<std::size_t>(row)]);
+    radios_ = std::set(radio_.begin(), radio_.end());
   }
 
   OwnWorldVerdict verdict() {
-    const Hypotheses hypotheses = hypotheses_of(s_, found_.seen.walls);
+    const Hypotheses hypotheses = hypotheses_of(s_, found_);
     OwnWorldVerdict out{{}, {}, hypotheses.searched, hypotheses.not_tested};
     if (kept_.size() < thresholds::own_world_fewest || hypotheses.searched.empty()) return out;
     set(s_.base.values);
     const OwnWorld as_it_is = world_with({});
     std::vector<OwnWorld> worlds;
+    const auto left = [&](const OwnWorld& world) {
+      return std::min(world.squares / as_it_is.squares, world.levelled / as_it_is.levelled);
+    };
     for (const Hypothesis& h : promising(hypotheses.all)) {
       OwnWorld world = world_with(h);
-      if (world.squares < thresholds::own_world_share * as_it_is.squares) worlds.push_back(std::move(world));
+      if (left(world) < thresholds::own_world_share) worlds.push_back(std::move(world));
     }
     std::stable_sort(worlds.begin(), worlds.end(),
-                     [](const OwnWorld& a, const OwnWorld& b) { return a.squares < b.squares; });
-    if (worlds.size() > thresholds::own_worlds_fitted) worlds.resize(thresholds::own_worlds_fitted);
+                     [&](const OwnWorld& a, const OwnWorld& b) { return left(a) < left(b); });
+    keep_first(worlds, thresholds::own_worlds_fitted, [](const OwnWorld& each) { return each.hypothesis.cause; });
     if (!worlds.empty()) name_likeliest(as_it_is, worlds, out);
     return out;
   }
@@ -107,13 +142,18 @@ class Judge {
     OwnWorld world;
     double nats = 0, evidence = 0;
     bool beside_found = false;  // with what was found in the world as it is
+    bool levelled = false;      // with a level of each radio
     InPlan place_sd{};
   };
 
   double choice() const { return std::log(static_cast<double>(tried_)); }
   double price(double numbers) const { return numbers / 2 * std::log(static_cast<double>(kept_.size())); }
 
-  // The hypotheses that are best by least squares about a multiple of the declared levels, one start of each.
+  double price_of_levels() const { return price(static_cast<double>(radios_.size()) - 1); }
+  bool may_level() const { return radios_.size() > 1 && radios_.size() <= thresholds::own_world_levels; }
+
+  // The hypotheses that are best by least squares about a multiple of the declared levels, one start of each: about one
+  // level, or one of each radio, since a radio that is off besides would hide what the map has wrong.
   std::vector<Hypothesis> promising(const std::vector<Hypothesis>& all) {
     struct Scored {
       const Hypothesis* hypothesis;
@@ -122,13 +162,19 @@ class Judge {
     ParameterGuard declared(s_.model);
     for (const FitParameter& p : s_.fitted.parameters) declared.set(p.path, p.start);
     const VectorXd plain = s_.model.expected()(kept_);
-    const double squares = rest_about(plain, y_);
-    std::vector<Scored> scored;
+    const std::vector<std::size_t> one(kept_.size(), 0);
+    const auto about = [&](const VectorXd& levels, const std::vector<std::size_t>& group) {
+      return rest_about(centred(levels, group), centred(y_, group));
+    };
+    const double squares = about(plain, one), levelled = about(plain, radio_);
+    std::vector<Scored> scored;  // as shares of those of the world as it is
     for (const Hypothesis& h : all) {
       const VectorXd levels = levels_with(h);
       if (levels.size() == 0 || (levels - plain).cwiseAbs().maxCoeff() < thresholds::own_world_change) continue;
       ++tried_;
-      const Scored now{&h, rest_about(levels, y_)};
+      double left = about(levels, one) / squares;
+      if (may_level()) left = std::min(left, about(levels, radio_) / levelled);
+      const Scored now{&h, left};
       const auto same = std::find_if(scored.begin(), scored.end(), [&](const Scored& other) {
         return other.hypothesis->cause == h.cause && other.hypothesis->row == h.row &&
                other.hypothesis->words == h.words;
@@ -138,10 +184,10 @@ class Judge {
       else if (now.squares < same->squares)
         *same = now;
     }
-    std::erase_if(scored, [&](const Scored& each) { return each.squares > thresholds::own_world_hopeless * squares; });
+    std::erase_if(scored, [&](const Scored& each) { return each.squares > thresholds::own_world_hopeless; });
     std::stable_sort(scored.begin(), scored.end(),
                      [](const Scored& a, const Scored& b) { return a.squares < b.squares; });
-    if (scored.size() > thresholds::own_worlds_built) scored.resize(thresholds::own_worlds_built);
+    keep_first(scored, thresholds::own_worlds_built, [](const Scored& each) { return each.hypothesis->cause; });
     std::vector<Hypothesis> result;
     for (const Scored& each : scored) result.push_back(*each.hypothesis);
     return result;
@@ -182,9 +228,19 @@ class Judge {
     own.slopes = slopes_at(s_.model, own);
     set(own.values);
     own.mean = s_.model.expected();
-    OwnWorld world{hypothesis, 0, y_ - own.offset()(kept_), own.slopes(kept_, Eigen::all)};
+    OwnWorld world{hypothesis, 0, 0, y_ - own.offset()(kept_), own.slopes(kept_, Eigen::all)};
     world.values = bounded_least_squares(world.design, world.rest, own.lower, own.upper);
     world.squares = (world.rest - world.design * world.values).squaredNorm();
+    world.levelled = world.squares;
+    if (!may_level()) return with_ends(std::move(world));
+    MatrixXd design = world.design;
+    for (Index j = 0; j < design.cols(); ++j) design.col(j) = centred(world.design.col(j), radio_);
+    const VectorXd rest = centred(world.rest, radio_);
+    world.levelled = (rest - design * bounded_least_squares(design, rest, own.lower, own.upper)).squaredNorm();
+    return with_ends(std::move(world));
+  }
+
+  OwnWorld with_ends(OwnWorld world) const {
     const auto ends = s_.model.ends_now();
     for (const Index row : kept_) world.ends.push_back(ends[static_cast<std::size_t>(row)]);
     return world;
@@ -280,7 +336,7 @@ class Judge {
     return sd;
   }
 
-  Judged judged(const OwnWorld& given) {
+  Judged judged(const OwnWorld& given, const OwnWorld& as_it_is) {
     Judged result{given};
     Likelihood likelihood = likelihood_of(given);
     if (given.hypothesis.place) {
@@ -295,6 +351,16 @@ class Judge {
     }
     result.nats = likelihood.nats;
     result.evidence = likelihood.nats - choice() - price(given.hypothesis.sought());
+    // Only where it explains more of what levels leave: a likelihood costs.
+    if (may_level() && given.levelled / as_it_is.levelled < given.squares / as_it_is.squares) {
+      const double nats = likelihood_of(with_levels(result.world)).nats,
+                   evidence = nats - choice() - price(given.hypothesis.sought()) - price_of_levels();
+      if (evidence > result.evidence) {
+        result.nats = nats;
+        result.evidence = evidence;
+        result.levelled = true;
+      }
+    }
     if (price_of_found() == 0) return result;
     // A fault of the map leaves room for others: what was found may be true beside it, in another strength.
     OwnWorld both = result.world;
@@ -306,7 +372,20 @@ class Judge {
     result.nats = nats;
     result.evidence = evidence;
     result.beside_found = true;
+    result.levelled = false;
     return result;
+  }
+
+  // With a level of each radio but one.
+  OwnWorld with_levels(OwnWorld world) const {
+    const Index own = world.design.cols();
+    world.design.conservativeResize(Eigen::NoChange, own + static_cast<Index>(radios_.size()) - 1);
+    world.design.rightCols(world.design.cols() - own).setZero();
+    for (std::size_t i = 0; i < radio_.size(); ++i) {
+      const auto at = std::distance(radios_.begin(), radios_.find(radio_[i]));
+      if (at > 0) world.design(static_cast<Index>(i), own + at - 1) = 1;
+    }
+    return world;
   }
 
   // nats, of the choices and numbers of all that the search named in the world as it is; 0: nothing.
@@ -336,15 +415,15 @@ class Judge {
   }
 
   void name_likeliest(const OwnWorld& as_it_is, const std::vector<OwnWorld>& worlds, OwnWorldVerdict& out) {
-    const double plain = likelihood_of(as_it_is).nats;
+    const double alone = likelihood_of(as_it_is).nats;
     std::vector<Judged> all;
-    for (const OwnWorld& world : worlds) all.push_back(judged(world));
+    for (const OwnWorld& world : worlds) all.push_back(judged(world, as_it_is));
     const double most = std::max_element(all.begin(), all.end(), [](const Judged& a, const Judged& b) {
                           return a.evidence < b.evidence;
                         })->evidence;
     // Of those that the readings do not tell apart the simplest. What else is wrong with the world is in no hypothesis
     // yet, so that small shares of the lead say little.
-    const double even = std::max(thresholds::own_world_even, thresholds::own_world_even_share * (most - plain));
+    const double even = std::max(thresholds::own_world_even, thresholds::own_world_even_share * (most - alone));
     const auto simpler = [&](const Judged& a, const Judged& b) {
       const auto rank = [&](const Judged& j) {
         return std::tuple(j.evidence < most - even, j.world.hypothesis.cause->needs_own_world(),
@@ -353,6 +432,9 @@ class Judge {
       return rank(a) < rank(b);
     };
     const Judged& best = *std::min_element(all.begin(), all.end(), simpler);
+    // Where it takes levels of the radios, too, against the world as it is with such levels.
+    const double plain =
+        best.levelled ? std::max(alone, likelihood_of(with_levels(as_it_is)).nats - price_of_levels()) : alone;
     const double of_found = likelihood_of_found(as_it_is).nats, worth = of_found - price_of_found();
     const double lead = best.evidence - (best.beside_found ? std::max(plain, worth) : plain);
     if (lead < thresholds::own_world_nats || best.evidence - worth < thresholds::own_world_beyond_found) return;
@@ -375,8 +457,10 @@ class Judge {
   const Diagnosis& found_;
   ParameterGuard moved_;
   std::vector<Index> kept_, of_used_;  // rows of the table; the same among those of the search
-  VectorXd y_;                         // dBm, measured there
-  int tried_ = 0;                      // hypotheses that change the expected levels
+  std::vector<std::size_t> radio_;     // of each reading: which sends, or hears where one sends
+  std::set<std::size_t> radios_;
+  VectorXd y_;     // dBm, measured there
+  int tried_ = 0;  // hypotheses that change the expected levels
 };
 
 }  // namespace

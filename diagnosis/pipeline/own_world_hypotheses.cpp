@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <set>
 #include <sstream>
+#include <string_view>
 
+#include "diagnosis/data/median.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
+#include "diagnosis/radio/causes/place_grid.hpp"
 #include "diagnosis/radio/links/measurement_geometry.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
@@ -22,6 +25,21 @@ std::vector<const muster_param*> with_flag(const Cause& cause, uint32_t flag) {
     if (cause.plugin->params[k].flags & flag) result.push_back(&cause.plugin->params[k]);
   }
   return result;
+}
+
+// The two numbers in metres to be sought: a place on the map, or how far east and north a plan is moved.
+struct Sought {
+  const muster_param *east = nullptr, *north = nullptr;
+  bool is_place = false;
+};
+
+std::optional<Sought> sought_by(const Cause& cause) {
+  const auto east = with_flag(cause, MUSTER_EAST), north = with_flag(cause, MUSTER_NORTH);
+  if (east.size() == 1 && north.size() == 1) return Sought{east[0], north[0], true};
+  auto ways = with_flag(cause, MUSTER_FREE);
+  std::erase_if(ways, [](const muster_param* p) { return p->kind != MUSTER_REAL || std::string_view(p->unit) != "m"; });
+  if (ways.size() != 2) return {};
+  return Sought{ways[0], ways[1], false};
 }
 
 std::vector<std::string> values_of(const muster_param& p) {
@@ -86,6 +104,40 @@ std::vector<InPlan> middles_of(const MeasurementGeometry& geometry, const std::v
   return result;
 }
 
+// How far the radios that the search puts elsewhere lie from there, as one move: a plan that is moved puts each in
+// another place, all by the same way. None of fewer than two.
+std::optional<InPlan> common_move(const LinkModel& model, const std::vector<CauseEstimate>& found) {
+  std::vector<double> east, north;
+  for (const CauseEstimate& c : found) {
+    const auto listed = c.row.empty() ? std::nullopt : place_of_radio(model, c.row);
+    if (!listed) continue;
+    std::vector<double> place;
+    for (const CauseValue& v : c.values) {
+      if (v.unit == "m") place.push_back(v.value);
+    }
+    if (place.size() != 2) continue;
+    east.push_back(listed->x() - place[0]);
+    north.push_back(listed->y() - place[1]);
+  }
+  if (east.size() < 2) return {};
+  return InPlan{median(east), median(north)};
+}
+
+// From which the move of a plan is sought: in all directions, and as far as radios have been found to be off.
+std::vector<InPlan> first_moves(const LinkModel& model, const std::vector<CauseEstimate>& found) {
+  std::vector<InPlan> result;
+  if (const auto move = common_move(model, found)) {
+    result.push_back(*move);
+    result.push_back({-(*move)[0], -(*move)[1]});
+  }
+  for (const double far : {thresholds::own_world_near_move, thresholds::own_world_far_move}) {
+    for (const InPlan& way :
+         {InPlan{1, 0}, {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}})
+      result.push_back({far * way[0], far * way[1]});
+  }
+  return result;
+}
+
 // An exchange of identities without numbers to seek: a rival of the causes with worlds of their own.
 bool exchanges_names(const Cause& cause) {
   return cause.meaning().kind == MUSTER_INSTRUMENT && !cause.needs_own_world() &&
@@ -93,13 +145,14 @@ bool exchanges_names(const Cause& cause) {
 }
 
 void add_cause(const Cause& cause, const std::vector<CauseRow>& rows, const std::vector<InPlan>& places,
-               std::vector<Hypothesis>& out) {
-  const bool placed = !with_flag(cause, MUSTER_EAST).empty();
+               const std::vector<InPlan>& moves, std::vector<Hypothesis>& out) {
+  const auto sought = sought_by(cause);
+  const std::vector<InPlan>& starts = sought && !sought->is_place ? moves : places;
   for (const CauseRow& row : rows) {
     for (const Words& words : choices_of(cause)) {
-      if (!placed) out.push_back({&cause, out.size(), row, words, {}});
-      for (const InPlan& place : places)
-        if (placed) out.push_back({&cause, out.size(), row, words, place});
+      if (!sought) out.push_back({&cause, out.size(), row, words, {}});
+      for (const InPlan& start : starts)
+        if (sought) out.push_back({&cause, out.size(), row, words, start});
     }
   }
 }
@@ -130,23 +183,24 @@ Supposed::~Supposed() {
 }
 
 void Supposed::move(const InPlan& place) {
-  model_.set(std::string(supposed) + '/' + with_flag(*cause_, MUSTER_EAST)[0]->name, place[0]);
-  model_.set(std::string(supposed) + '/' + with_flag(*cause_, MUSTER_NORTH)[0]->name, place[1]);
+  const Sought sought = *sought_by(*cause_);
+  model_.set(std::string(supposed) + '/' + sought.east->name, place[0]);
+  model_.set(std::string(supposed) + '/' + sought.north->name, place[1]);
 }
 
-Hypotheses hypotheses_of(const DiagnosisSetup& setup, const std::vector<MappedWall>& walls) {
+Hypotheses hypotheses_of(const DiagnosisSetup& setup, const Diagnosis& found) {
+  const std::vector<MappedWall>& walls = found.seen.walls;
   Hypotheses result;
   const MeasurementGeometry geometry = measurement_geometry(setup.model, setup.data);
-  const std::vector<InPlan> places = middles_of(geometry, walls);
+  const std::vector<InPlan> places = middles_of(geometry, walls), moves = first_moves(setup.model, found.causes);
   for (const Cause& cause : setup.causes) {
     if (!cause.needs_own_world() && !exchanges_names(cause)) continue;
     const auto rows = rows_for(cause, setup.model, geometry);
     std::string why = why_not(cause, geometry, setup.data);
     if (why.empty() && rows.empty()) why = why_no_rows(cause);
-    if (why.empty() && !with_flag(cause, MUSTER_EAST).empty() &&
-        geometry.standing.size() < thresholds::fewest_standing && walls.empty())
-      why = "not testable: a plan without walls shows how it is turned by three radios that stand";
-    if (why.empty()) add_cause(cause, rows, places, result.all);
+    if (why.empty() && sought_by(cause) && geometry.standing.size() < thresholds::fewest_standing && walls.empty())
+      why = "not testable: a plan without walls shows how it lies by three radios that stand";
+    if (why.empty()) add_cause(cause, rows, places, moves, result.all);
     if (!cause.needs_own_world()) continue;
     why.empty() ? result.searched.push_back(cause.id) : result.not_tested.push_back(cause.id + ": " + why);
   }
@@ -172,7 +226,8 @@ CauseEstimate stated(const Hypothesis& h, const InPlan& place_sd) {
   }
   for (const std::size_t k : {0, 1}) {
     if (!h.place) break;
-    const muster_param& p = *with_flag(*h.cause, k == 0 ? MUSTER_EAST : MUSTER_NORTH)[0];
+    const Sought sought = *sought_by(*h.cause);
+    const muster_param& p = k == 0 ? *sought.east : *sought.north;
     const double at = (*h.place)[k], half = thresholds::normal95 * place_sd[k];
     out.values.push_back({p.name, p.unit, at, place_sd[k], at - half, at + half, p.min, p.max});
   }

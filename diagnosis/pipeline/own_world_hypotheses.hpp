@@ -20,7 +20,7 @@ struct Hypothesis {
   std::size_t number = 0;        // in the order of causes, rows and choices
   CauseRow row{};
   std::map<std::string, std::string> words{};  // its choices and integers
-  std::optional<InPlan> place{};               // of a cause that has one
+  std::optional<InPlan> place{};               // of a cause that has one, or how far it moves a plan
 
   std::string label() const;
   // Numbers that were sought, beside the choice among hypotheses.
@@ -47,9 +47,10 @@ struct Hypotheses {
   std::vector<std::string> searched, not_tested;  // causes with MUSTER_OWN_WORLD; those not tested with the reason
 };
 
-// Those of causes with MUSTER_OWN_WORLD, and exchanged identities, with which they compete. A cause with a place has
-// several starts each. `walls`: of the map.
-Hypotheses hypotheses_of(const DiagnosisSetup& setup, const std::vector<MappedWall>& walls);
+// Those of causes with MUSTER_OWN_WORLD, and exchanged identities, with which they compete. A cause with a place, or
+// with two free parameters in metres, how far east and north it moves a plan, has several starts each, a move also
+// the one that `found` has in common in the places of several radios.
+Hypotheses hypotheses_of(const DiagnosisSetup& setup, const Diagnosis& found);
 
 // The finding that states a hypothesis, without its evidence.
 CauseEstimate stated(const Hypothesis& hypothesis, const InPlan& place_sd);

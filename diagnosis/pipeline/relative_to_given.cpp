@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "diagnosis/pipeline/first_cause.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 
 namespace muster::diagnosis {
@@ -35,6 +36,7 @@ inference::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, 
 void begin_as_given(const Diagnosis& given, bool by_itself, const CorrectedSearch& corrected, Diagnosis& out) {
   const inference::ModelState& state = corrected.state;
   CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
+  if (first.doubt.empty()) first.doubt = doubt_by_imitator(first, out.checks, corrected.setup.causes);
   const VectorXd left = corrected.measured - state.rows().mean(given.fitted(corrected.setup.used.rows));
   const VectorXd left_by_stream = state.rows().by_stream(left);
   first.effect = left_by_stream - out.seen.before;

@@ -26,6 +26,8 @@ inline constexpr double row_way = 1.0;
 inline constexpr double row_level = 1.5;
 // m; within which a transmitter is heard at one place; chosen; none
 inline constexpr double one_receiver_place = 0.1;
+// readings; most of a usual row where none has a time; chosen; LinkRowLimits.KeepReadingsWithoutATimeApart
+inline constexpr double untimed_row = 8;
 // rows; up to which rows are shorter than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows
 inline constexpr Eigen::Index short_rows = 4000;
 // rows; beyond which rows are longer than usual; chosen; LinkRowLimits.AreAsShortAsTheNumberOfRowsAllows
@@ -68,6 +70,14 @@ inline constexpr double moving_extent = 0.5;
 // places; of a radio that stands nevertheless; chosen;
 // MeasurementGeometry.TakesARadioThatIsSetUpAFewTimesForOneThatStands
 inline constexpr std::size_t most_set_ups = 4;
+// share; of the links, that may be too few for a law of all readings; chosen;
+// Survey.OutliersOfAFewLinksAreInDoubt
+inline constexpr double few_links = 0.25;
+// share; of the readings that need a law, that those links have then; chosen; none
+inline constexpr double most_of_few_links = 0.5;
+// factor; of the median step between readings of one link at one place, beyond which a step ends a stay; chosen;
+// Stays.EndAtAPause
+inline constexpr double pause_between_stays = 30;
 // parts; of the readings, in order of time, that cross-validation of names in time leaves out; chosen; none
 inline constexpr std::size_t parts_of_time = 10;
 // links; from which a pile of readings of one of them is no end of a receiver's range; chosen;
@@ -264,6 +274,9 @@ inline constexpr double second_law_lambda = 30;
 // probability; of a cause or a dependence that is not found, beside which another field is in doubt; chosen;
 // LawDoubts.AnotherFieldIsInDoubtBesideWhatItMayHaveAbsorbed
 inline constexpr double absorbed_alpha = 1e-3;
+// probability; of a cause or a dependence that is not found, beside which a law of single readings is in doubt; chosen;
+// LawDoubts.ALawOfScatterIsInDoubtBesideWhatIsPlainlyLeft
+inline constexpr double scattered_alpha = 1e-6;
 // nats; evidence from which another field is plain, whatever the law of distance; chosen;
 // LawDoubts.AFieldOfLittleEvidenceMayHaveAnotherLawOfDistance
 inline constexpr double plain_field = 20;
@@ -420,6 +433,10 @@ inline constexpr double second_station_apart = 2;
 
 // radios; that stand, by which a plan shows how it is turned; derived; none
 inline constexpr std::size_t fewest_standing = 3;
+// m; how far a plan is moved where that is first tried; chosen; OwnWorldLoop.IsNamedAndTheExtendedWorldIsSilent
+inline constexpr double own_world_near_move = 2;
+// m; the same, further off; chosen; none
+inline constexpr double own_world_far_move = 7;
 // readings; by which worlds are judged, evenly spread; chosen; none
 inline constexpr std::size_t own_world_readings = 2000;
 // readings; fewest by which worlds are judged; chosen; none
@@ -428,6 +445,9 @@ inline constexpr std::size_t own_world_fewest = 60;
 inline constexpr double own_world_change = 1e-6;
 // factor; sum of squares, over that of the world as it is, from which a hypothesis is not fitted; chosen; none
 inline constexpr double own_world_hopeless = 1.15;
+// radios; up to which each may have a level of its own besides; chosen;
+// OwnWorld.AFaultOfTheMapIsFoundBesideAWeakStation
+inline constexpr std::size_t own_world_levels = 12;
 // worlds; fitted by least squares, the best by their declared parameters; chosen; none
 inline constexpr std::size_t own_worlds_built = 8;
 // share; of the sum of squares of the world as it is, below which noise is fitted; chosen; none

@@ -5,6 +5,12 @@
 #include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::report {
+namespace {
+
+// "of wall/w1"; "of stations" is so already.
+std::string with_of(const std::string& label) { return label.starts_with("of ") ? label : "of " + label; }
+
+}  // namespace
 
 std::vector<Question> open_questions(const Diagnosis& d) {
   std::vector<Question> out;
@@ -13,7 +19,7 @@ std::vector<Question> open_questions(const Diagnosis& d) {
     for (const inference::Alternative& r : c.alternatives) {
       if (r.separability >= inference::thresholds::decided) continue;
       std::string pair = short_name(c.id) + " or " + short_name(r.id);
-      if (r.id == c.id) pair = short_name(c.id) + " of " + c.label + " or of " + r.label;
+      if (r.id == c.id) pair = short_name(c.id) + ' ' + with_of(c.label) + " or " + with_of(r.label);
       Question question{c.id, r.id, std::move(pair), r.separability, c.tell_apart, {}};
       for (const diagnosis::Advice& a : d.advice) {
         if (a.cause != c.id || a.alternative != r.id || !a.predicted) continue;

@@ -12,12 +12,21 @@ bool found(const Diagnosis& d, const std::string& id) {
          std::any_of(d.unexplained.begin(), d.unexplained.end(), is_left);
 }
 
+namespace {
+
+bool is_doubtful(const inference::Check& c) { return c.log_p < std::log(1e-3); }
+
+}  // namespace
+
+std::string chance_of(const inference::Check& c) {
+  return chance(c.log_p) + (is_doubtful(c) && !c.refused.empty() ? ", " + c.refused : "");
+}
+
 SortedChecks sorted_checks(const Diagnosis& d) {
-  const double small = std::log(1e-3);
   SortedChecks result;
   for (const inference::Check& c : d.checks) {
     if (found(d, c.id)) continue;
-    auto& list = c.log_p < small ? result.doubtful : c.kind == inference::Kind::smooth ? result.along : result.causes;
+    auto& list = is_doubtful(c) ? result.doubtful : c.kind == inference::Kind::smooth ? result.along : result.causes;
     list.push_back(&c);
   }
   return result;

@@ -82,7 +82,10 @@ Json cause_json(const CauseEstimate& c) {
 }
 
 Json unexplained_json(const diagnosis::Unexplained& u) {
-  Json out = {{"covariate", u.covariate}, {"evidence", known(u.evidence)}, {"lambda", known(u.lambda)}};
+  Json out = {{"covariate", u.covariate},
+              {"evidence", known(u.evidence)},
+              {"lambda", known(u.lambda)},
+              {"reach_db", known(u.reach)}};
   out.update(held_out_json(u.held_out));
   out["elsewhere"] = elsewhere_json(u.elsewhere);
   out["rivals"] = rivals_json(u.alternatives);
@@ -119,7 +122,8 @@ Json checks_json(const Diagnosis& d) {
     const bool smooth = c.kind == inference::Kind::smooth;
     out.push_back({{smooth ? "covariate" : "cause", smooth ? c.id.substr(1) : c.id},
                    {"p", std::exp(std::min(c.log_p, 0.0))},
-                   {"lambda", known(c.gain)}});
+                   {"lambda", known(c.gain)},
+                   {"refused", c.refused.empty() ? Json() : Json(c.refused)}});
   }
   return out;
 }

@@ -175,7 +175,7 @@ std::string checked_table(const Diagnosis& d) {
   const auto of = [](const char* what, const std::vector<const inference::Check*>& checks) {
     std::vector<Row> rows;
     rows.reserve(checks.size());
-    for (const inference::Check* c : checks) rows.push_back({{name_of(*c)}, {chance(c->log_p), true}});
+    for (const inference::Check* c : checks) rows.push_back({{name_of(*c)}, {chance_of(*c), true}});
     return rows.empty() ? "" : table({{what}, {"chance", true}}, rows);
   };
   std::string out = "<div class=\"card\">" + of("dependence on", along) + of("further cause", causes);
@@ -213,10 +213,7 @@ std::string world(const Diagnosis& d) {
   }
   std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
   out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows, "values");
-  const auto& n = d.noise;
-  out += paragraph(fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.",
-                               noise::name_of(n.family), db(std::sqrt(n.field_variance())), n.decorrelation(),
-                               db(std::sqrt(n.reading_variance()))));
+  out += paragraph(noise_in_words(d.noise));
   for (const std::string& note : d.notes) out += paragraph("Note: " + note, "soft");
   return out + "</div>\n";
 }

@@ -158,7 +158,7 @@ std::string undecided(const Diagnosis& d) {
 std::string with_chances(const std::vector<const inference::Check*>& checks) {
   std::string result;
   for (const inference::Check* c : checks)
-    result += (result.empty() ? "" : ", ") + name_of(*c) + " (" + chance(c->log_p) + ")";
+    result += (result.empty() ? "" : ", ") + name_of(*c) + " (" + chance_of(*c) + ")";
   return result;
 }
 
@@ -201,11 +201,7 @@ std::string world(const Diagnosis& d) {
         quantity(v.value, half, v.unit) + " +- " + rounded(half, half) + (v.at_bound ? "  (at its bound)" : "");
     text += wrapped(fmt::format("{:<28} {}", v.path, v.identifiable ? value : "not identifiable"), 2, 4);
   }
-  const auto& n = d.noise;
-  text += wrapped(
-      fmt::format("Noise: {} field of {} that decorrelates over {:.2f} m, and {} a reading.", noise::name_of(n.family),
-                  db(std::sqrt(n.field_variance())), n.decorrelation(), db(std::sqrt(n.reading_variance()))),
-      2, 4);
+  text += wrapped(noise_in_words(d.noise), 2, 4);
   for (const std::string& note : d.notes)
     if (!asks(note)) text += wrapped("note: " + note, 2, 4);
   return text;

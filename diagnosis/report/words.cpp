@@ -70,6 +70,13 @@ std::string field_in_words(const diagnosis::UnstatedField& field) {
       field.decorrelation, field.shadowing, field.reading_sd);
 }
 
+std::string stays_in_words(const diagnosis::Stays& stays) {
+  return fmt::format(
+      "levels change by {:.1f} dB from one stay to the next, where readings of a stay scatter by {:.1f} dB, and {} "
+      "stays are too few to tell with what",
+      stays.sd, stays.reading_sd, stays.count);
+}
+
 double lambda_of_names(const Diagnosis& d) {
   double most = 0;
   for (const CauseEstimate& c : d.causes)
@@ -195,6 +202,20 @@ std::string covariate_in_words(const std::string& name) {
          (words.count(second) ? words.at(second) : second);
 }
 
+namespace {
+
+// "as likely", "5.0 times less likely (1.6 nats)"; `gap`: nats that it is behind.
+std::string likelihood_in_words(double gap) {
+  const double nats = std::abs(tenths(gap)), times = std::exp(nats);
+  if (nats == 0) return "as likely";
+  const std::string factor = times < 10     ? fmt::format("{:.1f}", times)
+                             : times < 1000 ? fmt::format("{:.0f}", times)
+                                            : "over 1000";
+  return fmt::format("{} times {} ({:.1f} nats)", factor, gap < 0 ? "likelier" : "less likely", nats);
+}
+
+}  // namespace
+
 std::string rivals_in_words(const CauseEstimate& cause) {
   return is_law(cause) && cause.alternatives.empty()
              ? "none of its kind; a law of scatter is not compared with what shifts levels"
@@ -205,10 +226,27 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
   if (alternatives.empty()) return "none: the readings exclude all other causes";
   std::string out;
   for (const inference::Alternative& r : alternatives)
-    out += fmt::format("{}{}, {:.1f} nats {}, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
-                       std::abs(tenths(r.evidence_gap)), tenths(r.evidence_gap) < 0 ? "ahead" : "behind",
-                       r.separability, judged(r.separability));
+    out += fmt::format("{}{}, {}, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
+                       likelihood_in_words(r.evidence_gap), r.separability, judged(r.separability));
   return out;
+}
+
+std::string noise_in_words(const noise::Covariance& noise) {
+  static const std::map<noise::Family, std::string> shapes{
+      {noise::Family::exponential, "exponential correlation"},
+      {noise::Family::matern32, "Matern correlation of 3/2"},
+      {noise::Family::matern52, "Matern correlation of 5/2"},
+      {noise::Family::two_scale, "a correlation of two scales"},
+      {noise::Family::gaussian, "Gaussian correlation"},
+      {noise::Family::stated, "the correlation that the world states"}};
+  const double fixed = noise::fixed_share(noise.family);
+  std::string kept;
+  if (fixed > 0)
+    kept = fmt::format(", {:.0f} % of its variance kept at a place{}", 100 * fixed,
+                       noise::fixed_to_stream(noise.family) ? ", each way of a link by itself" : "");
+  return fmt::format("Noise: shadowing of {} that decorrelates over {:.2f} m ({}{}), and {} a reading.",
+                     db(std::sqrt(noise.field_variance())), noise.decorrelation(),
+                     shapes.at(noise::without_fixed(noise.family)), kept, db(std::sqrt(noise.reading_variance())));
 }
 
 bool is_in_headline(const inference::Alternative& r) {
@@ -227,7 +265,8 @@ std::string names_of(const CauseEstimate& cause) {
 
 std::string what_is_unexplained(const diagnosis::Unexplained& what) {
   const std::string won = fmt::format("evidence {:.1f} nats, lambda {:.0f}.", what.evidence, what.lambda);
-  const std::string on = "The residual depends on " + covariate_in_words(what.covariate);
+  const std::string on = "The residual depends on " + covariate_in_words(what.covariate) +
+                         (what.reach > 0 ? fmt::format(", by up to {:.1f} dB", what.reach) : "");
   if (what.alternatives.empty()) return on + ", and no cause on the plugin path explains it: " + won;
   return on + ": " + won + " Causes that explain it nearly as well: " + rivals_in_words(what.alternatives) + ".";
 }
@@ -256,13 +295,13 @@ const inference::Check* nearest_to_a_name(const Diagnosis& d) {
 }
 
 // Why none of the names is confirmed.
-std::string what_is_missing(const Diagnosis& d) {
+std::string what_is_missing(const Diagnosis& d, bool is_one) {
   const auto any = [&](const auto& is) { return std::any_of(d.causes.begin(), d.causes.end(), is); };
   if (any([](const CauseEstimate& c) { return c.doubt.rfind(diagnosis::at_its_bound, 0) == 0; }))
     return "the fit ends at a bound, and no name is sure";
   return any([](const CauseEstimate& c) { return c.doubt.empty() && c.status == inference::Status::named; })
-             ? "what was held out does not confirm it yet"
-             : "it is in doubt";
+             ? fmt::format("what was held out does not confirm {} yet", is_one ? "it" : "them")
+             : std::string(is_one ? "it is in doubt" : "they are in doubt");
 }
 
 std::string whole_verdict(const Diagnosis& d) {
@@ -272,13 +311,17 @@ std::string whole_verdict(const Diagnosis& d) {
   // The headline is what is larger: names that explain more than what is left unexplained.
   const bool led_by_names =
       !d.unexplained.empty() && confirmed + unconfirmed > 0 && lambda_of_names(d) > lambda_left(d);
-  const std::string left = led_by_names ? "; something depends on " + covariates_of(d) + " beside" : "";
+  const std::string left = (led_by_names ? "; something depends on " + covariates_of(d) + " beside" : "") +
+                           (d.stays            ? "; " + stays_in_words(*d.stays)
+                            : d.unstated_field ? "; " + field_in_words(*d.unstated_field)
+                                               : "");
   if (!d.unexplained.empty() && !led_by_names)
     return std::string("is wrong in a way that no known cause explains") +
            (d.unexplained[0].alternatives.empty() ? "" : " as well") + ": something depends on " + covariates_of(d) +
            (confirmed + unconfirmed ? "; " + named + " beside it" : "");
   if (confirmed + unconfirmed == 0 && d.interrupted)
     return "is not judged: the search was interrupted, and nothing had been found";
+  if (confirmed + unconfirmed == 0 && d.stays) return "is not adequate: " + stays_in_words(*d.stays);
   if (confirmed + unconfirmed == 0 && d.unstated_field) return "is not adequate: " + field_in_words(*d.unstated_field);
   if (confirmed + unconfirmed == 0 && d.other_scatter) return "is not adequate: " + scatter_in_words(*d.other_scatter);
   if (confirmed + unconfirmed == 0 && count_of(d, Confidence::set_aside))
@@ -289,7 +332,7 @@ std::string whole_verdict(const Diagnosis& d) {
                          chance(nearest->log_p) + ")"
                    : "is adequate: nothing was found beyond chance";
   }
-  if (confirmed == 0) return "seems wrong: " + named + ", but " + what_is_missing(d) + left;
+  if (confirmed == 0) return "seems wrong: " + named + ", but " + what_is_missing(d, unconfirmed == 1) + left;
   return "is wrong: " + named + (unconfirmed ? ", not all confirmed by what was held out" : "") + left;
 }
 

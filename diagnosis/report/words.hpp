@@ -54,6 +54,9 @@ std::string rivals_in_words(const CauseEstimate& cause);
 // True for an alternative that is named beside the cause: the readings tell neither from the other.
 bool is_in_headline(const inference::Alternative& alternative);
 std::string names_of(const CauseEstimate& cause);
+
+// "Noise: shadowing of 3.10 dB that decorrelates over 2.40 m (exponential correlation), and 1.20 dB a reading."
+std::string noise_in_words(const noise::Covariance& noise);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
 // "shows nothing more"; "still shows drift tx1, something along the column battery".

@@ -171,6 +171,17 @@ std::optional<PlantedCause> plan_turned(const Setting& s, Random& random) {
   return cause;
 }
 
+// All stations by the same way, as where another corner of the building is the map's origin.
+std::optional<PlantedCause> plan_shifted(const Setting& s, Random& random) {
+  if (s.site.plan.stations.size() < 2) return {};
+  const double way = random.uniform(1, 5), turn = random.uniform(-pi, pi);
+  PlantedCause cause{"plan_shifted"};
+  cause.texts = {{"of", "stations"}};
+  cause.numbers = {{"east", to_millimetres(way * std::cos(turn)), "m"},
+                   {"north", to_millimetres(way * std::sin(turn)), "m"}};
+  return cause;
+}
+
 std::optional<PlantedCause> power_steps(const Setting& s, Random& random) {
   if (!s.site.has_power) return {};
   PlantedCause cause{"power_steps"};
@@ -192,7 +203,8 @@ std::vector<CauseKind> radio_causes() {
           {"sector_antenna", {}, sector_antenna}, {"body_shadow", {}, body_shadow},
           {"label_swap", {}, label_swap},         {"tx_misplaced", {}, tx_misplaced},
           {"power_steps", power, power_steps},    {"labels_shifted", {}, labels_shifted},
-          {"plan_turned", {}, plan_turned},       {"column_shifted", {}, column_shifted}};
+          {"plan_turned", {}, plan_turned},       {"column_shifted", {}, column_shifted},
+          {"plan_shifted", {}, plan_shifted}};
 }
 
 }  // namespace muster::exam::simulated

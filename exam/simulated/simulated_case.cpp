@@ -38,7 +38,7 @@ std::vector<CauseKind> candidates(const Request& request, const std::string& kin
 bool exclude(const PlantedCause& a, const PlantedCause& b) {
   const auto places = [](const PlantedCause& c) {
     return c.id == "label_swap" || c.id == "tx_misplaced" || c.id == "labels_shifted" || c.id == "plan_turned" ||
-           c.id == "column_shifted";
+           c.id == "plan_shifted" || c.id == "column_shifted";
   };
   const auto scatters = [](const PlantedCause& c) {
     return c.acts == Acts::reading_law || c.acts == Acts::field_law || c.acts == Acts::blockage;
@@ -287,8 +287,10 @@ Made make(const Request& request, int number) {
   made.name = fmt::format("case_{:04}", number);
   made.seed = random.bits();
   made.kind = kind_of(request, random);
-  const std::vector<CauseKind> kinds = candidates(request, made.kind, number);
+  std::vector<CauseKind> kinds = candidates(request, made.kind, number);
   const std::size_t count = made.kind == "clean" ? 0 : made.kind == "two" ? 2 : made.kind == "three" ? 3 : 1;
+  // In its world, which has no plan, nothing else can be.
+  if (count > 1) std::erase_if(kinds, [](const CauseKind& kind) { return kind.id == std::string("counted_walls"); });
   SiteNeeds needs;
   for (std::size_t i = 0; i < std::min(count, kinds.size()); ++i) {
     const SiteNeeds& n = kinds[i].needs;

@@ -25,7 +25,7 @@ struct LabelSwap {
       "the radios {a} and {b} bear each other's name",
       "a b",
       places_in_plan,
-      "effect.tx_misplaced effect.tx_offset",
+      "effect.tx_misplaced effect.tx_offset effect.antenna_tx effect.sector_antenna",
       "switch one of the two off and see which falls silent",
       nullptr,
       MUSTER_FIRST,

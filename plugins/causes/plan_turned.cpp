@@ -41,7 +41,7 @@ struct PlanTurned {
       "the places of the {of} are {how} on the map, about ({x}, {y})",
       "",
       places_in_plan,
-      "effect.labels_shifted effect.label_swap effect.tx_misplaced",
+      "effect.labels_shifted effect.label_swap effect.plan_shifted effect.tx_misplaced",
       "measure the place of one radio, or levels close to it",
       nullptr,
       MUSTER_FIRST | MUSTER_OWN_WORLD,
@@ -57,16 +57,15 @@ struct PlanTurned {
         pose(s.modify<Pose>("endpoint/*/pose")) {}
 
   void step(const Step& k) const {
-    enum { stations, robots, walls };
     const auto before = k.before(pose);
     const auto ends = unchanged(k, endpoint);
     const auto out = k[pose];
-    const auto which = static_cast<int>(k[of]);
+    const auto wrongly = static_cast<Listed>(static_cast<int>(k[of]));
     const Standing standing(ends, before, k[mount]);
     Turn turn = turns[static_cast<std::size_t>(k[how])];
-    if (which != walls) std::swap(turn.east_y, turn.north_x);  // its inverse
+    if (wrongly != Listed::walls) std::swap(turn.east_y, turn.north_x);  // its inverse
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const bool turned = k[how] != 0 && (which == walls || (which == stations) == standing(ends[i].radio));
+      const bool turned = k[how] != 0 && standing.concerned(ends[i].radio, wrongly);
       out[i] = turned ? seen(before[i], turn, k[x], k[y]) : before[i];
     }
   }

@@ -10,6 +10,9 @@
 
 namespace muster {
 
+// What of a plan is listed wrongly: a choice stations|robots|walls.
+enum class Listed { stations, robots, walls };
+
 class Standing {
  public:
   Standing(Rows<const Endpoint> ends, Rows<const Pose> poses, Rows<const Mount> mounts)
@@ -33,6 +36,10 @@ class Standing {
   const std::vector<std::size_t>& radios() const { return radios_; }  // in the world's order
   bool operator()(double radio) const { return stands_[static_cast<std::size_t>(radio)]; }
   const Pose& place_of(std::size_t radio) const { return places_[radio]; }
+  // Whether this radio has another place in a plan put right: all have, where the walls are moved under them.
+  bool concerned(double radio, Listed wrongly) const {
+    return wrongly == Listed::walls || (wrongly == Listed::stations) == (*this)(radio);
+  }
 
  private:
   static constexpr double still = 0.05;  // m: between two readings of one place

@@ -25,7 +25,7 @@ struct TxMisplaced {
       "the radio {radio} is not where the map says but at ({x}, {y})",
       "radio",
       places_in_plan,
-      "effect.label_swap effect.tx_offset effect.antenna_tx",
+      "effect.label_swap effect.tx_offset effect.antenna_tx effect.sector_antenna effect.plan_shifted",
       "measure its place; or measure levels close to it, all around",
       nullptr,
       MUSTER_FIRST,

@@ -57,6 +57,15 @@ TEST(SimulatedCase, EveryCausePluginCanBePlanted) {
   EXPECT_GE(planted.size(), kinds.size() - 2);  // a plan may have no place for one of them
 }
 
+// The world in which walls are counted has no plan: a second cause could ask for a wall that is not there.
+TEST(SimulatedCase, CountedWallsStandAlone) {
+  for (int number = 1; number <= 4; ++number) {
+    const Made made = make(of("two", {"counted_walls", "wall_material", "wall_absent"}), number);
+    EXPECT_FALSE(made.counts_walls);
+    for (const PlantedCause& cause : made.causes) EXPECT_NE(cause.id, "counted_walls");
+  }
+}
+
 TEST(SimulatedCase, TheWorldIsTheTruthWithoutTheCause) {
   const Made made = make(of("one", {"tx_offset"}), 1);
   const Simulator simulator(MUSTER_PROGRAM, table(made, made.measured), walls_csv(made.site.plan));

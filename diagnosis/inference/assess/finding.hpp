@@ -6,6 +6,7 @@
 #include "diagnosis/inference/assess/cross_validation.hpp"
 #include "diagnosis/inference/select/alternatives.hpp"
 #include "diagnosis/inference/select/forward_selection.hpp"
+#include "diagnosis/inference/select/stays.hpp"
 
 namespace muster::inference {
 
@@ -22,6 +23,7 @@ struct Finding {
   double gain = 0;                      // deviance beside all other findings
   double evidence = 0;                  // nats
   double log_p = 0;                     // marginal over the covariance
+  double reach = 0;                     // between the lowest and the highest of its effects, but for 1 % at each end
   double inflation = 1;                 // of gains of its kind in these data, by which its own was divided for log_p
   std::optional<HeldOutGain> held_out;  // without and with it; none for a suspected finding
   Eigen::VectorXd unseen_without;       // squared errors of readings at left-out places without it; none likewise
@@ -34,6 +36,7 @@ struct Check {
   std::string id, label;
   Kind kind = Kind::named;
   double gain = 0, log_p = 0;  // of so much by chance anywhere on its grid
+  std::string refused{};       // why it was not taken when it was tried last; empty: it never was
 };
 
 struct Result {
@@ -48,6 +51,7 @@ struct Result {
   std::vector<Elsewhere> elsewhere;     // of each grouping of several groups
   std::vector<Stair> stairs;  // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;
+  std::optional<StayScatter> stays;  // where something in time was not named for how they scatter
 };
 
 }  // namespace muster::inference

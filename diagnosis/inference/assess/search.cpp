@@ -64,6 +64,11 @@ Result Search::run() {
   result_.mean = design * coefficients;
   add_held_out_gains(state_, folds_, result_);
   check_what_is_left(result_, model);
+  const bool of_stays =
+      std::any_of(result_.trials.begin(), result_.trials.end(), [](const Trial& t) { return t.of_stays; });
+  const StayScatter stays = of_stays ? scatter_of_stays(state_, design) : StayScatter();
+  // Where each site has one stay, what differs is the site.
+  if (stays.stays > state_.field().recurring().streams()) result_.stays = stays;
   return result_;
 }
 
@@ -73,6 +78,7 @@ void Search::withdraw_refuted() {
     const Term& term = state_.terms[*worst];
     result_.trials.push_back({term.candidate->id, term.candidate->label_of(term.theta), term.gain, term.log_p,
                               term.log_p, false, "refuted by readings at places left out"});
+    result_.trials.back().of_stays = differs_between_stays(state_, *term.candidate, term.columns);
     state_.terms.erase(state_.terms.begin() + static_cast<std::ptrdiff_t>(*worst));
     state_.refit();
   }
@@ -96,8 +102,11 @@ std::vector<ParameterUncertainty> Search::settle_in_the_middle() {
 // their number (Bonferroni).
 void Search::check_what_is_left(Result& result, const WhitenedModel& model) {
   std::map<std::string, std::pair<std::size_t, double>> along;  // index of the check, number of smooths
-  for (const ScoredCandidate& lead : scored_candidates(state_, model)) {
+  for (ScoredCandidate& lead : scored_candidates(state_, model)) {
     const Candidate& c = lead.candidate();
+    // What is moved as a whole gains by a share of the grid's move, which is none.
+    if (c.design.whole && c.refinement.any() && lead.log_p < std::log(thresholds::near_miss_p))
+      lead = refined(state_, model, lead, true);
     const Check check{c.kind == Kind::smooth ? "~" + c.own() : c.id, c.label_of(lead.theta), c.kind, lead.gain,
                       lead.log_p};
     const auto [at, first] = along.try_emplace(check.id, result.checks.size(), 1.0);
@@ -111,28 +120,40 @@ void Search::check_what_is_left(Result& result, const WhitenedModel& model) {
     if (check.gain > known.gain) known.gain = check.gain;
     known.log_p = one + std::log(++ways);
   }
+  for (const Trial& trial : result.trials) {
+    // "slope~position" is one of the smooths along "~position".
+    const std::string id = trial.id.find('~') == trial.id.npos ? trial.id : trial.id.substr(trial.id.find('~'));
+    if (const auto at = along.find(id); at != along.end()) result.checks[at->second.first].refused = trial.reason;
+  }
 }
+
+namespace {
+
+double reach_of(Eigen::VectorXd effect) {
+  const Index end = effect.size() / 100;
+  std::sort(effect.begin(), effect.end());
+  return effect[effect.size() - 1 - end] - effect[end];
+}
+
+}  // namespace
 
 Finding Search::finding_of(const Term& term, Status status) const {
   const Eigen::MatrixXd design = noise::hstack(state_.design_without(term), term.columns);
   const WhitenedModel model = state_.whitened_model(design);
   const Index width = term.columns.cols();
-  Finding finding{term.id(),
-                  term.candidate->label_of(term.theta),
-                  status,
-                  term.candidate->covariates,
-                  term.theta,
-                  model.coefficients(design.cols()).tail(width),
-                  model.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width),
-                  {},
-                  term.gain,
-                  term.evidence,
-                  term.log_p,
-                  term.inflation,
-                  {},
-                  {},
-                  {},
-                  {}};
+  Finding finding;
+  finding.id = term.id();
+  finding.label = term.candidate->label_of(term.theta);
+  finding.status = status;
+  finding.covariates = term.candidate->covariates;
+  finding.theta = term.theta;
+  finding.coefficients = model.coefficients(design.cols()).tail(width);
+  finding.uncertainty = model.at.basis.uncertainty(design.cols()).bottomRightCorner(width, width);
+  finding.gain = term.gain;
+  finding.evidence = term.evidence;
+  finding.log_p = term.log_p;
+  finding.reach = reach_of(term.columns * finding.coefficients);
+  finding.inflation = term.inflation;
   return finding;
 }
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -30,6 +32,12 @@ RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
     rows.push_back(i);
     site_.push_back(entry->second);
   }
+}
+
+Index RecurringSites::streams() const {
+  std::set<std::pair<Index, int>> streams;
+  for (std::size_t i = 0; i < site_.size(); ++i) streams.emplace(site_[i], stream_[i]);
+  return static_cast<Index>(streams.size());
 }
 
 double RecurringSites::share() const {

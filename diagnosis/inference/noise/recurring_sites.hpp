@@ -21,6 +21,7 @@ class RecurringSites {
   const std::vector<std::vector<Index>>& sites() const { return rows_; }  // the rows of each, in their order
   // Share of rows whose site has others, of those that share a field.
   double share() const;
+  Index streams() const;                                     // in all, each counted at each of its sites
   bool several_streams() const { return several_streams_; }  // at some site
 
  private:

@@ -10,6 +10,7 @@
 #include "diagnosis/inference/select/alternatives.hpp"
 #include "diagnosis/inference/select/relocate.hpp"
 #include "diagnosis/inference/select/replace_smooths.hpp"
+#include "diagnosis/inference/select/stays.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
@@ -96,7 +97,7 @@ std::optional<Term> best_in_time(ModelState& state, const Eigen::MatrixXd& rest)
     const Candidate& c = lead.candidate();
     if (c.kind != Kind::named || !c.role.time_like) continue;
     const ScoredCandidate at = refined(state, model, lead, true);
-    if (!best || at.evidence > best->evidence)
+    if ((!best || at.evidence > best->evidence) && !is_chance_of_stays(state, c, at.columns, rest))
       best = Term{lead.entry->candidate, at.theta, at.columns, at.gain, at.evidence, 0};
   }
   return best;

@@ -15,6 +15,7 @@
 #include "diagnosis/inference/select/refit_noise_pass.hpp"
 #include "diagnosis/inference/select/relocate.hpp"
 #include "diagnosis/inference/select/stated_noise_pass.hpp"
+#include "diagnosis/inference/select/stays.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -172,11 +173,14 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
       !separable_from_clipping(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
   else if (trial.marginal_log_p > state.threshold())
-    trial.reason = "not beyond chance";
+    trial.reason = trial.log_p > state.threshold() ? "not beyond chance"
+                                                   : "not beyond chance under another noise that fits as well";
   else if (of_outlier(state, c, gains_by_row))
     trial.reason = "rests on fewer than five readings";
   else if (c.kind == Kind::named && fits_each_site(state, lead))
     trial.reason = "has more numbers than the sites of the network leave";
+  else if (trial.of_stays = is_chance_of_stays(state, c, lead.columns, design); trial.of_stays)
+    trial.reason = "is not beyond how stays differ by chance";
   trial.accepted = trial.reason.empty();
   return trial;
 }
@@ -366,7 +370,7 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
     if (passing.empty()) {
       const Blocked only{blocked.for_good, blocked.for_good};
       const auto lead = stated_noise_pass(state, [&](const Candidate& c) { return usable(state, only, c); });
-      if (!lead) return;
+      if (!lead || is_chance_of_stays(state, lead->candidate(), lead->columns, model.design)) return;
       enter_as_stated(state, *lead);
       blocked.now = blocked.for_good;
       scored.reset();

@@ -34,7 +34,9 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     return likeliest;
   }
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
-  if (replaces(s, best->cause)) found.causes.back().doubt = doubt_by_level(s, residual, field, found);
+  std::string& doubt = found.causes.back().doubt;
+  doubt = replaces(s, best->cause) ? doubt_by_level(s, residual, field, found) : doubt_by_link(s, residual, *best);
+  if (doubt.empty()) doubt = doubt_of_scatter(found);
   for (const LawTest& other : tests) {
     const double gap = best->evidence - other.evidence;
     if (&other != &*best && gap < thresholds::open_law_nats)

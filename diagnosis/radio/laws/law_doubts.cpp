@@ -1,17 +1,20 @@
 #include "diagnosis/radio/laws/law_doubts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "diagnosis/calibration/distributions.hpp"
 #include "diagnosis/radio/laws/scatter_by_level.hpp"
 #include "diagnosis/radio/laws/testable_readings.hpp"
+#include "diagnosis/radio/links/link_site.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -100,6 +103,44 @@ Successive successive(const LawSources& s, const VectorXd& residual, const LawTe
   return result;
 }
 
+struct LinkInNeed {
+  std::pair<int, int> ends{};
+  double readings = 0;
+  int need = 0;  // of these, a law
+
+  void add(const LinkInNeed& other) {
+    readings += other.readings;
+    need += other.need;
+  }
+};
+
+// Links at one place each if they stand there for a while, those first of which the most readings need a law.
+std::vector<LinkInNeed> links_in_need(const LawSources& s, const VectorXd& residual, const LawTest& law) {
+  std::map<LinkSite, LinkInNeed> at_places;
+  for (Index i = 0, tested = 0; i < residual.size(); ++i) {
+    if (!std::isfinite(residual[i])) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const std::pair ends(s.readings.tx[k], s.readings.rx[k]);
+    at_places.try_emplace(site_of(s.readings, i), LinkInNeed{ends})
+        .first->second.add({ends, 1, law.won[tested++] > thresholds::needs_law});
+  }
+  std::map<std::pair<int, int>, LinkInNeed> links;
+  LinkInNeed all;
+  std::vector<LinkInNeed> result;
+  for (const auto& [site, link] : at_places) {
+    links.try_emplace(link.ends, LinkInNeed{link.ends}).first->second.add(link);
+    all.add(link);
+    result.push_back(link);
+  }
+  if (all.readings < inference::thresholds::readings_a_stay * static_cast<double>(result.size())) {
+    result.clear();
+    for (const auto& [ends, link] : links) result.push_back(link);
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const LinkInNeed& a, const LinkInNeed& b) { return a.need > b.need; });
+  return result;
+}
+
 ScatterByLevel scatter_of(const LawSources& s, const VectorXd& residual, const KrigedReadings& field,
                           const Diagnosis& found) {
   VectorXd level(field.size());
@@ -107,6 +148,21 @@ ScatterByLevel scatter_of(const LawSources& s, const VectorXd& residual, const K
     if (std::isfinite(residual[i])) level[kriged++] = found.mean[s.used[static_cast<std::size_t>(i)]];
   }
   return scatter_by_level(field.close_readings(), level);
+}
+
+// The likeliest of what is not found, where chance yields it with less than that probability; null if there is none.
+const inference::Check* nearest_left(const Diagnosis& found, double alpha) {
+  const auto least = std::min_element(found.checks.begin(), found.checks.end(),
+                                      [](const auto& a, const auto& b) { return a.log_p < b.log_p; });
+  if (least == found.checks.end() || least->log_p >= std::log(alpha)) return nullptr;
+  const bool told =
+      std::any_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) { return c.id == least->id; });
+  return told ? nullptr : &*least;
+}
+
+std::string comes_near(const inference::Check& check) {
+  return fmt::format("{} comes near (p = {:.1g})", check.id.substr(check.id.find_first_of(".~") + 1),
+                     std::exp(check.log_p));
 }
 
 std::string in_words(const ScatterByLevel& scatter) {
@@ -157,15 +213,40 @@ std::string doubt_by_level(const LawSources& s, const VectorXd& residual, const 
                                                std::exp(scatter.log_p));
 }
 
+std::string doubt_by_link(const LawSources& s, const VectorXd& residual, const LawTest& law) {
+  const std::vector<LinkInNeed> links = links_in_need(s, residual, law);
+  LinkInNeed all;
+  for (const LinkInNeed& link : links) all.add(link);
+  const auto count = static_cast<double>(links.size());
+  LinkInNeed first;  // the links so far, together
+  std::string names;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const auto many = static_cast<double>(k + 1);
+    if (many > thresholds::few_links * count) break;
+    first.add(links[k]);
+    const std::set<std::string> ends = s.model.link_of(links[k].ends.first, links[k].ends.second);
+    names += fmt::format("{}{}", k == 0 ? "" : ", ", fmt::join(ends, "-"));
+    if (first.need < thresholds::most_of_few_links * all.need) continue;
+    const double by_chance = all.need * first.readings / all.readings;
+    // As many others of the links might have been the first.
+    const double choices = std::lgamma(count + 1) - std::lgamma(many + 1) - std::lgamma(count - many + 1);
+    if (std::log(poisson_tail(by_chance, first.need)) + choices < std::log(thresholds::pairs_alpha))
+      return fmt::format(
+          "{} of {} readings that are off are of {}, where chance has {:.0f}: something happens there, and not to all "
+          "readings",
+          first.need, all.need, names, by_chance);
+  }
+  return "";
+}
+
+std::string doubt_of_scatter(const Diagnosis& found) {
+  const inference::Check* const left = nearest_left(found, thresholds::scattered_alpha);
+  return left ? "what is not found scatters readings, too, and " + comes_near(*left) : "";
+}
+
 std::string doubt_of_field(const Diagnosis& found, const CauseEstimate& field) {
-  const auto absorbed = std::min_element(found.checks.begin(), found.checks.end(),
-                                         [](const auto& a, const auto& b) { return a.log_p < b.log_p; });
-  const bool told =
-      absorbed != found.checks.end() && std::any_of(found.causes.begin(), found.causes.end(),
-                                                    [&](const CauseEstimate& c) { return c.id == absorbed->id; });
-  if (absorbed != found.checks.end() && !told && absorbed->log_p < std::log(thresholds::absorbed_alpha))
-    return fmt::format("what is not found makes a field wide, too, and {} comes near (p = {:.1g})",
-                       absorbed->id.substr(absorbed->id.find_first_of(".~") + 1), std::exp(absorbed->log_p));
+  if (const inference::Check* const left = nearest_left(found, thresholds::absorbed_alpha))
+    return "what is not found makes a field wide, too, and " + comes_near(*left);
   if (field.evidence < thresholds::plain_field)
     return "a law of distance that is a little other than the world's, or a thing that is not found, would do as well";
   return "";

@@ -21,6 +21,14 @@ std::string doubt_of(const LawSources& sources, const Eigen::VectorXd& residual,
 std::string doubt_by_level(const LawSources& sources, const Eigen::VectorXd& residual, const KrigedReadings& field,
                            const Diagnosis& found);
 
+// Why a law of single readings that is named may be none: a few of the links have nearly all that it is named for.
+// Empty where all have their share.
+std::string doubt_by_link(const LawSources& sources, const Eigen::VectorXd& residual, const LawTest& law);
+
+// Why a law of single readings that is named may be none: what shifts levels and is not found scatters them as well.
+// Empty where nothing comes near.
+std::string doubt_of_scatter(const Diagnosis& found);
+
 // Why a field that differs from the world's may be none: what shifts levels at places and is not found makes a field
 // wide, too. Empty where it is plain.
 std::string doubt_of_field(const Diagnosis& found, const CauseEstimate& field);

@@ -5,7 +5,10 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
+#include "diagnosis/data/median.hpp"
+#include "diagnosis/radio/links/link_site.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -89,7 +92,8 @@ LinkRowLimits never_shorter(const LinkRowLimits& rows) {
 noise::Rows link_rows(const LinkReadings& readings, const LinkRowLimits& limits) {
   std::vector<Index> order = by_link_and_time(readings, limits.time), first;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || ends_row(readings, limits, order[static_cast<std::size_t>(first.back())], order[k]))
+    const bool full = k > 0 && readings.t.empty() && static_cast<Index>(k) - first.back() >= limits.untimed;
+    if (k == 0 || full || ends_row(readings, limits, order[static_cast<std::size_t>(first.back())], order[k]))
       first.push_back(static_cast<Index>(k));
   }
   first.push_back(static_cast<Index>(order.size()));
@@ -156,6 +160,7 @@ LinkRowLimits limits_for(const LinkReadings& readings) {
     limits = {};
     limits.time *= share;
     limits.way *= share;
+    limits.untimed = std::max<Index>(1, std::lround(thresholds::untimed_row * share));
     if (link_rows(readings, limits).size() <= (share < 1 ? thresholds::short_rows : thresholds::usual_rows)) break;
   }
   return limits;
@@ -189,6 +194,31 @@ std::vector<int> LinkLayout::parts_of_time(const noise::Rows& rows) const {
   std::vector<int> result(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     result[static_cast<std::size_t>(order[k])] = static_cast<int>(k * thresholds::parts_of_time / order.size());
+  return result;
+}
+
+std::vector<int> LinkLayout::stays(const noise::Rows& rows) const {
+  if (readings_.t.empty()) return {};
+  std::map<std::pair<bool, LinkSite>, std::vector<std::pair<double, Index>>> at;  // of means, and of differences
+  for (Index row = 0; row < rows.size(); ++row) {
+    const Index reading = rows.example(row);
+    at[{rows.is_difference(row), site_of(readings_, reading)}].emplace_back(
+        readings_.t[static_cast<std::size_t>(reading)], row);
+  }
+  std::vector<double> steps;
+  for (auto& [site, visits] : at) {
+    std::sort(visits.begin(), visits.end());
+    for (std::size_t k = 1; k < visits.size(); ++k) steps.push_back(visits[k].first - visits[k - 1].first);
+  }
+  const double pause = steps.empty() ? 0 : thresholds::pause_between_stays * median(std::move(steps));
+  std::vector<int> result(static_cast<std::size_t>(rows.size()));
+  int stay = -1;
+  for (const auto& [site, visits] : at) {
+    for (std::size_t k = 0; k < visits.size(); ++k) {
+      if (k == 0 || visits[k].first - visits[k - 1].first > pause) ++stay;
+      result[static_cast<std::size_t>(visits[k].second)] = stay;
+    }
+  }
   return result;
 }
 

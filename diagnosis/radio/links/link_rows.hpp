@@ -1,6 +1,8 @@
 // Groups readings of radio links to rows of the search, and computes the sites of rows.
 #pragma once
 
+#include <limits>
+
 #include "diagnosis/inference/state/layout.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -28,6 +30,8 @@ struct LinkRowLimits {
   double turn = thresholds::row_turn;    // rad
   double way = thresholds::row_way;      // m, of either end
   double level = thresholds::row_level;  // dB: levels with and without a wall are not averaged
+  // Most readings of a row where none has a time: all those of one place would be one row, whatever scatters them.
+  noise::Index untimed = std::numeric_limits<noise::Index>::max();
 };
 
 // Rows within these limits, sorted by link, then time. Readings of one setting stand together among those of one link
@@ -65,6 +69,7 @@ class LinkLayout : public inference::Layout {
   noise::Sites sites(const noise::Rows& rows) const override;
   std::vector<inference::Grouping> groupings(const noise::Rows& rows, const noise::Sites& sites) const override;
   std::vector<int> parts_of_time(const noise::Rows& rows) const override;
+  std::vector<int> stays(const noise::Rows& rows) const override;
   bool sites_known() const override { return places_known_; }
 
   const LinkReadings& readings() const { return readings_; }

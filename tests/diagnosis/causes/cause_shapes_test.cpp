@@ -65,7 +65,8 @@ TEST(CauseShape, StartsOfTimesLieWithinTheSessions) {
   const auto jumps = axis_over(at, time, {}, true);
   ASSERT_TRUE(jumps);
   int first = 0, second = 0;
-  for (const double v : jumps->values) {
+  for (const double entry : jumps->values) {
+    const double v = jumps->value_at(entry);
     first += v >= 0 && v <= 1200;
     second += v >= 3.15e7 && v <= 3.15e7 + 1200;
   }
@@ -246,6 +247,22 @@ TEST(MeasurementGeometry, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
 }
 
 // A factor of e in either direction: 1.96 of those, not 216 dB about 100.
+// Beyond 520 m an exponent of 3 was lower by 5: a hill, as it happens.
+TEST(CauseEstimate, AStrengthAtItsBoundIsInDoubt) {
+  CauseEstimate slope;
+  slope.values = {{"break", "m", 520, 30, 440, 590, 0.5, 1e5}, {"n_change", "", -5, 0.5, -5, -3, -5, 10}};
+  EXPECT_EQ(doubt_at_own_bound(slope), "its n_change ends at the bound of -5, so that something else may do this");
+  slope.values[1].value = -4.9;
+  EXPECT_EQ(doubt_at_own_bound(slope), "");
+  CauseEstimate hard, whole;
+  hard.values = {{"edge", "m", 0, 0, 0, 0.3, 0, 1}, {"loss", "dB", 0, 1, 0, 2, 0, 40}};
+  whole.values = {{"share", "", 1, 0.1, 0.9, 1, 0, 1}};
+  EXPECT_EQ(doubt_at_own_bound(hard) + doubt_at_own_bound(whole), "");
+  CauseEstimate two;  // channels, of which there are two at least
+  two.values = {{"channels", "", 2, 0, 2, 2, 2, 100}};
+  EXPECT_EQ(doubt_at_own_bound(two), "");
+}
+
 TEST(CauseEstimate, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
   muster_param knee{};
   knee.name = "knee";

@@ -16,11 +16,11 @@
 
 namespace muster::diagnosis {
 
-enum class Fault { none = 1, swapped, shifted, mirrored, turned, names_late, places_late, misplaced };
+enum class Fault { none = 1, swapped, shifted, mirrored, turned, names_late, places_late, misplaced, moved };
 
 inline const char* word_of(Fault fault) {
-  static const char* words[] = {"",       "none",       "swapped",     "shifted",  "mirrored",
-                                "turned", "names late", "places late", "misplaced"};
+  static const char* words[] = {"",       "none",       "swapped",     "shifted",   "mirrored",
+                                "turned", "names late", "places late", "misplaced", "moved"};
   return words[static_cast<int>(fault)];
 }
 
@@ -36,6 +36,12 @@ class DamagedLogMaker {
     draw_site();
     draw_log();
     damage();
+  }
+
+  // That station sends less than the world says, besides.
+  void weaken(std::size_t station, double decibels) {
+    for (Row& r : log_)
+      if (r.station == station) r.rssi -= decibels;
   }
 
   DamagedLog write(const Scratch& scratch) const {
@@ -196,6 +202,15 @@ class DamagedLogMaker {
         listed_[which].x = centimetre(listed_[which].x + way * std::cos(turn));
         listed_[which].y = centimetre(listed_[which].y + way * std::sin(turn));
         truth_ = "effect.tx_misplaced radio/" + name(which);
+        break;
+      }
+      case Fault::moved: {
+        const double way = between(2, 6), turn = between(0, 2 * M_PI);
+        for (Place& p : listed_) {
+          p.x = centimetre(p.x + way * std::cos(turn));
+          p.y = centimetre(p.y + way * std::sin(turn));
+        }
+        truth_ = "effect.plan_shifted of stations";
         break;
       }
     }

@@ -238,5 +238,47 @@ TEST(FieldLog, PowersOfAMeshWithoutAClock) {
   EXPECT_TRUE(named_causes(diagnose(extended, scratch / "measured.csv", plugins)).empty());
 }
 
+// Twenty readings of each place, of which nobody knows when they were made, follow the battery. Averaged by places they
+// did not, and the world was adequate.
+TEST(FieldLog, ReadingsWithoutAClockDependOnAColumn) {
+  const Scratch scratch;
+  const Stream random(key_of("battery"));
+  std::string table = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],battery,rssi[dBm]\n";
+  for (uint64_t place = 0; place < 30; ++place) {
+    for (uint64_t k = 0; k < 20; ++k) {
+      const double battery = random.uniform(place, k), x = 2 + 0.7 * static_cast<double>(place);
+      const double level = 1 - 35 - 20 * std::log10(x) + 6 * battery + 2 * random.of(9).normal(place, k);
+      table += fmt::format("s1,rover,0,0,{},0,{},{}\n", x, battery, std::lround(level));
+    }
+  }
+  std::ofstream(scratch / "measured.csv") << table;
+  const auto world = world_of(scratch, "world.xml", "<station name=\"s1\" at=\"0 0 1\"/>");
+  EXPECT_EQ(names_in_words(named_causes(diagnose(world, scratch / "measured.csv", plugins))), "~battery");
+}
+
+// One link, half an hour between readings, of which the first are 40 dB higher.
+Diagnosis of_one_link(const Scratch& scratch, int higher) {
+  const Stream random(key_of("one link"));
+  std::string table = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (int k = 0; k < 300; ++k) {
+    const double noise = random.normal(static_cast<uint64_t>(k), 0);
+    table += fmt::format("{},s1,rover,0,0,100,0,{}\n", 1800 * k, std::lround(-80 + noise + (k < higher ? 40 : 0)));
+  }
+  std::ofstream(scratch / "measured.csv") << table;
+  return diagnose(world_of(scratch, "world.xml", "<station name=\"s1\" at=\"0 0 1\"/>"), scratch / "measured.csv",
+                  plugins);
+}
+
+TEST(FieldLog, AStepIsNamedNearTheEndOfALog) {
+  const Scratch scratch;
+  const Diagnosis found = of_one_link(scratch, 10);
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes[0].id, "effect.step");
+  for (const CauseValue& v : found.causes[0].values) {
+    const double truth = v.name == "at" ? 9.5 * 1800 : v.name == "size" ? -40 : v.value;
+    EXPECT_NEAR(v.value, truth, v.name == "at" ? 1800 : 1) << v.name;
+  }
+}
+
 }  // namespace
 }  // namespace muster::diagnosis

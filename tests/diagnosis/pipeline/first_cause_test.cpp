@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 
 namespace muster::diagnosis {
@@ -51,6 +52,45 @@ TEST(FirstCause, ABlockageGoesFirstOnlyBesideAChangeInTime) {
   found.causes[1].covariates = {"time"};
   EXPECT_EQ(first_in_company(found, causes).found, &found.causes[0]);
   EXPECT_TRUE(first_in_company(found, causes).blockage);
+}
+
+// Exchanged names hid an antenna: lambda 23 beside them, 346 in the world with the names put right.
+TEST(FirstCause, AloneItGoesFirstWhereSomethingElseComesNear) {
+  muster_cause meaning{};
+  meaning.size = sizeof meaning;
+  meaning.flags = MUSTER_FIRST;
+  muster_plugin plugin{};
+  plugin.cause = &meaning;
+  const std::vector<Cause> causes{{"cause.names", nullptr, &plugin}};
+  Diagnosis found;
+  found.causes.resize(1);
+  found.causes[0].id = "cause.names";
+  found.checks = {{"cause.antenna", "all", inference::Kind::named, 23, std::log(0.01)}};
+  EXPECT_EQ(first_in_company(found, causes).found, nullptr);
+  found.checks[0].log_p = std::log(1e-5);
+  EXPECT_EQ(first_in_company(found, causes).found, &found.causes[0]);
+}
+
+TEST(FirstCause, IsInDoubtBesideWhatItCanBeMistakenFor) {
+  muster_cause meaning{};
+  meaning.size = sizeof meaning;
+  meaning.flags = MUSTER_FIRST;
+  meaning.imitators = "cause.offset cause.antenna";
+  muster_plugin plugin{};
+  plugin.cause = &meaning;
+  const std::vector<Cause> causes{{"cause.swap", nullptr, &plugin}};
+  CauseEstimate swap;
+  swap.id = "cause.swap";
+  inference::Check antenna;
+  antenna.id = "cause.antenna";
+  antenna.log_p = std::log(2e-4);
+  EXPECT_EQ(doubt_by_imitator(swap, {antenna}, causes),
+            "antenna comes near beside it (p = 0.0002): more than one may do the same");
+  antenna.log_p = std::log(0.01);
+  EXPECT_EQ(doubt_by_imitator(swap, {antenna}, causes), "");
+  antenna.log_p = std::log(2e-4);
+  antenna.id = "cause.wall";
+  EXPECT_EQ(doubt_by_imitator(swap, {antenna}, causes), "");
 }
 
 }  // namespace

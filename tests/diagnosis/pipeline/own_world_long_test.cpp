@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, OwnWorldShare,
                          testing::Values(Share{Fault::none, 10}, Share{Fault::swapped, 9}, Share{Fault::shifted, 9},
                                          Share{Fault::mirrored, 9}, Share{Fault::turned, 9},
                                          Share{Fault::names_late, 9}, Share{Fault::places_late, 9},
-                                         Share{Fault::misplaced, 2}));
+                                         Share{Fault::moved, 9}, Share{Fault::misplaced, 2}));
 
 }  // namespace
 }  // namespace muster::diagnosis

@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <tuple>
 
 #include "diagnosis/pipeline/closed_loop.hpp"
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/pipeline/exchanged_identity.hpp"
+#include "diagnosis/pipeline/own_world_hypotheses.hpp"
+#include "diagnosis/radio/causes/place_grid.hpp"
 #include "tests/diagnosis/pipeline/damaged_log.hpp"
 
 namespace muster::diagnosis {
@@ -20,7 +24,7 @@ TEST(OwnWorld, CleanReadingsAreSilent) {
   const Diagnosis found = diagnose(log.world, log.table, plugins);
   EXPECT_EQ(names_in_words(named_causes(found)), "silent");
   EXPECT_STREQ(found.verdict(), "adequate");
-  for (const char* id : {"effect.column_shifted", "effect.labels_shifted", "effect.plan_turned"})
+  for (const char* id : {"effect.column_shifted", "effect.labels_shifted", "effect.plan_shifted", "effect.plan_turned"})
     EXPECT_TRUE(std::count(found.searched.begin(), found.searched.end(), id)) << id;
 }
 
@@ -53,6 +57,51 @@ TEST(ExchangedIdentity, IsNotTriedForARadioThatStandsWhereNoOtherShould) {
   EXPECT_FALSE(instead_of_misplaced(log, log.truth.substr(log.truth.find('/') + 1)));
 }
 
+// Stations that all lie off by one way are a plan that does: its move is sought from there, too. A plain ring of moves
+// is too coarse for exact readings.
+TEST(Hypotheses, BeginAtWhatMisplacedRadiosHaveInCommon) {
+  const Scratch scratch;
+  const DamagedLog log = damaged_log(scratch, Fault::none, 1);
+  DiagnosisSetup setup(log.world, log.table, plugins, std::make_shared<TableCache>());
+  Diagnosis found;
+  const auto starts = [&] {
+    std::vector<InPlan> places;
+    for (const Hypothesis& h : hypotheses_of(setup, found).all)
+      if (h.cause->id == "effect.plan_shifted" && h.words.at("of") == "stations") places.push_back(*h.place);
+    return places;
+  };
+  const std::size_t rings = starts().size();
+  const auto misplace = [&](const std::string& radio, double east, double north) {
+    const Eigen::Vector2d listed = *place_of_radio(setup.model, radio);
+    CauseEstimate c;
+    c.id = "effect.tx_misplaced";
+    c.row = radio;
+    c.values = {{"x", "m", listed.x() - east, 0, 0, 0, 0, 0}, {"y", "m", listed.y() - north, 0, 0, 0, 0, 0}};
+    found.causes.push_back(c);
+  };
+  misplace("s1", 4.4, -1);
+  EXPECT_EQ(starts().size(), rings);  // one is a station that is off
+  misplace("s2", 4.5, -1.1);
+  misplace("s3", 9, 3);
+  const std::vector<InPlan> now = starts();
+  EXPECT_EQ(now.size(), rings + 2);
+  EXPECT_TRUE(std::any_of(now.begin(), now.end(),
+                          [](const InPlan& p) { return std::abs(p[0] - 4.5) < 1e-9 && std::abs(p[1] + 1) < 1e-9; }));
+}
+
+// What the map has wrong and what a radio has, each hide the other: without levels of the radios both of these logs
+// were another shadowing.
+TEST(OwnWorld, AFaultOfTheMapIsFoundBesideAWeakStation) {
+  for (const auto& [fault, seed, weak] : {std::tuple(Fault::swapped, 1u, 2u), std::tuple(Fault::mirrored, 2u, 0u)}) {
+    const Scratch scratch;
+    DamagedLogMaker maker(fault, seed);
+    maker.weaken(weak, 15);
+    const DamagedLog log = maker.write(scratch);
+    const Diagnosis found = diagnose(log.world, log.table, plugins);
+    EXPECT_EQ(names_in_words(named_causes(found)), log.truth + ", effect.tx_offset radio/s" + std::to_string(weak + 1));
+  }
+}
+
 // The corrected world was a file for the time of the diagnosis: its author has no such file to look into.
 void expect_no_other_files(const std::vector<std::string>& notes, const std::filesystem::path& own) {
   for (const std::string& note : notes)
@@ -79,7 +128,7 @@ TEST_P(OwnWorldLoop, IsNamedAndTheExtendedWorldIsSilent) {
 
 INSTANTIATE_TEST_SUITE_P(Faults, OwnWorldLoop,
                          testing::Values(Fault::swapped, Fault::shifted, Fault::mirrored, Fault::turned,
-                                         Fault::names_late, Fault::places_late),
+                                         Fault::names_late, Fault::places_late, Fault::moved),
                          [](const auto& fault) {
                            std::string name = word_of(fault.param);
                            std::replace(name.begin(), name.end(), ' ', '_');

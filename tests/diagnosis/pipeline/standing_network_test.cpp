@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <functional>
 
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/radio/links/link_model.hpp"
@@ -35,7 +36,9 @@ std::filesystem::path world(const Scratch& scratch, const std::string& name, con
 }
 
 // Every 0.4 s each station is heard by all others: what the world draws, with normal noise of 1 dB, read in whole dB.
-Diagnosis diagnosed(const std::string& cause) {
+// `off`: dB, of single readings beside that, which are numbered; all of a round come in the order of the links.
+Diagnosis diagnosed(
+    const std::string& cause, const std::function<double(uint64_t)>& off = [](uint64_t) { return 0.0; }) {
   const Scratch scratch;
   std::vector<std::string> rows;
   for (int round = 0; round < 200; ++round) {
@@ -58,9 +61,22 @@ Diagnosis diagnosed(const std::string& cause) {
   const Eigen::VectorXd drawn = LinkModel(world(scratch, "true.xml", cause), asked, plugins).drawn();
   const Stream noise(key_of("readings of a network"));
   const auto measured = write("measured.csv", ",rssi[dBm]", [&](Eigen::Index i) {
-    return ',' + print_real(std::round(drawn[i] + noise.normal(static_cast<uint64_t>(i))));
+    return ',' +
+           print_real(std::round(drawn[i] + noise.normal(static_cast<uint64_t>(i)) + off(static_cast<uint64_t>(i))));
   });
   return diagnose(world(scratch, "world.xml", ""), measured, plugins);
+}
+
+// Something happens to three of twenty links: their readings are off, and all others are not.
+TEST(Survey, OutliersOfAFewLinksAreInDoubt) {
+  const Stream random(key_of("off"));
+  const Diagnosis found = diagnosed("", [&](uint64_t i) {
+    const bool concerned = i % 20 == 4 || i % 20 == 11 || i % 20 == 17;
+    return concerned && random.uniform(i, 0) < 0.1 ? 24 * random.uniform(i, 1) - 12 : 0;
+  });
+  ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
+  EXPECT_EQ(found.causes[0].id, "effect.outliers");
+  EXPECT_NE(found.causes[0].doubt.find("readings that are off are of"), std::string::npos) << found.causes[0].doubt;
 }
 
 TEST(Survey, PeopleInANetworkThatStands) {

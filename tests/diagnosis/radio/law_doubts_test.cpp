@@ -33,6 +33,14 @@ TEST(LawDoubts, AnotherFieldIsInDoubtBesideWhatItMayHaveAbsorbed) {
   EXPECT_EQ(doubt_of_field(told, field_of(60)), "");
 }
 
+// Five antennas of a robot that turned scattered as by outliers.
+TEST(LawDoubts, ALawOfScatterIsInDoubtBesideWhatIsPlainlyLeft) {
+  EXPECT_EQ(doubt_of_scatter(with_check("~time", 1e-9)),
+            "what is not found scatters readings, too, and time comes near "
+            "(p = 1e-09)");
+  EXPECT_EQ(doubt_of_scatter(with_check("~time", 1e-5)), "");
+}
+
 TEST(LawDoubts, AFieldOfLittleEvidenceMayHaveAnotherLawOfDistance) {
   EXPECT_NE(doubt_of_field(with_check("effect.tx_offset", 0.5), field_of(11)), "");
   EXPECT_EQ(doubt_of_field(Diagnosis(), field_of(60)), "");

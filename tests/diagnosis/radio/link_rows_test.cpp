@@ -182,6 +182,20 @@ TEST(LinkRowLimits, AreAsShortAsTheNumberOfRowsAllows) {
   }
 }
 
+// Twenty readings of each place, of which nobody knows when they were made: their scatter would be gone in one row.
+TEST(LinkRowLimits, KeepReadingsWithoutATimeApart) {
+  for (const Index places : {30, 1000}) {
+    LinkReadings r;
+    const Index readings = 20 * places;
+    r.tx.assign(static_cast<std::size_t>(readings), 0);
+    r.rx.assign(static_cast<std::size_t>(readings), 1);
+    r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, readings);
+    for (Index k = 0; k < readings; ++k) r.rx_at(0, k) = 5 + 10 * static_cast<double>(k / 20);
+    // Of 20,000 readings rows of 8, 8 and 4: rows of 4 would be more than 4,000.
+    EXPECT_EQ(link_rows(r, limits_for(r)).size(), places == 30 ? readings : 3 * places) << places;
+  }
+}
+
 TEST(LinkSites, AreTheSameForBothDirectionsOfALink) {
   LinkReadings two_ways;  // radio 1 stands, radio 0 moves; each reading is followed by its return
   for (int k = 0; k < 20; ++k) {
@@ -252,6 +266,32 @@ TEST(RadiosOfRows, AreStationsOrRobotsWhereThereIsOneStation) {
     EXPECT_EQ(robots[static_cast<std::size_t>(i)] == robots[0],
               one.rx[example] == one.rx[static_cast<std::size_t>(of_one.example(0))]);
   }
+}
+
+// Bursts at two places, one of them twice. What is asked every hour is one long stay.
+TEST(Stays, EndAtAPause) {
+  LinkReadings r;
+  std::vector<std::pair<double, double>> visits;  // time and place
+  for (const auto& [from, place] : {std::pair(0.0, 3.0), {100.0, 3.0}, {200.0, 5.0}})
+    for (int k = 0; k < 20; ++k) visits.emplace_back(from + 0.5 * k, place);
+  const auto stays_of = [&] {
+    r = {};
+    const auto size = static_cast<Index>(visits.size());
+    r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
+    for (Index i = 0; i < size; ++i) {
+      const auto& [t, place] = visits[static_cast<std::size_t>(i)];
+      r.tx.push_back(0);
+      r.rx.push_back(1);
+      r.t.push_back(t);
+      r.rx_at(0, i) = place;
+    }
+    const LinkLayout layout(r, {.time = 0, .way = -1});
+    const std::vector<int> stays = layout.stays(layout.rows());
+    return std::set(stays.begin(), stays.end()).size();
+  };
+  EXPECT_EQ(stays_of(), 3u);
+  for (std::size_t k = 0; k < visits.size(); ++k) visits[k] = {3600.0 * static_cast<double>(k), 3};
+  EXPECT_EQ(stays_of(), 1u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Words, digits and gates, on synthetic results.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "diagnosis/report/advice.hpp"
@@ -68,6 +69,9 @@ TEST(Gate, ALawInDoubtIsSuspectedAndItsRivalsAreNotSaidToBeExcluded) {
   field.doubt = "a law of distance would do as well";
   EXPECT_TRUE(says(text(), "hall seems wrong: one cause is named, but it is in doubt."));
   EXPECT_TRUE(says(text(), "suspected: effect.shadowing_correlation"));
+  Diagnosis two = with(field);
+  two.causes.push_back(field);
+  EXPECT_TRUE(says(text_of(two, {"hall", "a.csv"}), "two causes are named, but they are in doubt."));
 }
 
 TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
@@ -127,7 +131,7 @@ TEST(Text, AlternativesOfTheSameNameAreToldByTheirRows) {
   c.alternatives.push_back({c.id, "wall/w2", {}, -0.01, 0});
   const std::string text = text_of(with(c), {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "unmapped wall of wall/w1 or of wall/w2: D 0, not distinguishable")) << text;
-  EXPECT_TRUE(says(text, "unmapped wall wall/w2, 0.0 nats behind")) << text;
+  EXPECT_TRUE(says(text, "unmapped wall wall/w2, as likely")) << text;
 }
 
 std::size_t times_said(const std::string& text, const std::string& what) {
@@ -152,8 +156,22 @@ TEST(Text, AGainBelowZeroIsARiseAndAGapBelowZeroALead) {
   c.alternatives = {{"effect.drift", "all", {}, -2.8, 7}};
   const std::string text = text_of(with(c), {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "rises by 0.70 dB2")) << text;
-  EXPECT_TRUE(says(text, "drift, 2.8 nats ahead, D 7")) << text;
+  EXPECT_TRUE(says(text, "drift, 16 times likelier (2.8 nats), D 7")) << text;
   EXPECT_FALSE(says(text, "falls by -")) << text;
+}
+
+// Variances as logarithms: 9 dB^2 of the field, 4 dB^2 of a reading.
+TEST(Text, NoiseIsToldAsShadowing) {
+  Diagnosis d = with(wall(inference::Status::named, {}));
+  d.noise = {noise::Family::stated, {std::log(9), std::log(2.5), std::log(4), 0}};
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}),
+                   "Noise: shadowing of 3.00 dB that decorrelates over 2.50 m (the correlation that the world states), "
+                   "and 2.00 dB a reading."));
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "Noise: shadowing of 3.00 dB that decorrelates"));
+  d.noise.family = noise::with_fixed(noise::Family::exponential, 2, true);
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}),
+                   "(exponential correlation, 30 % of its variance kept at a place, each way of a link by itself), and "
+                   "2.00 dB a reading."));
 }
 
 TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
@@ -169,7 +187,8 @@ TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
   EXPECT_TRUE(says(text, "column battery or drift: D 3, not distinguishable")) << text;
   EXPECT_TRUE(says(text, "measure with the column battery changed and all else as it was")) << text;
   const char* const alternatives =
-      "drift radio/base, 1.2 nats behind, D 3: not distinguishable; step, 2.6 nats behind, D 15";
+      "drift radio/base, 3.3 times less likely (1.2 nats), D 3: not distinguishable; step, 13 times less likely (2.6 "
+      "nats), D 15";
   EXPECT_TRUE(says(page, alternatives)) << page;
   const auto json = nlohmann::json::parse(json_of(d).dump());
   EXPECT_EQ(json["unexplained"][0]["rivals"][0]["id"], "effect.drift");
@@ -187,11 +206,13 @@ TEST(Text, WhatWasCheckedIsFineDoubtfulOrAskedByATestOfItsOwn) {
   };
   d.checks = {check("~logd", inference::Kind::smooth, 0.4), check("effect.drift", inference::Kind::named, 0.002),
               check("effect.step", inference::Kind::named, 1e-8)};
+  d.checks.back().refused = "rests on fewer than five readings";
   d.searched = {"effect.drift", "effect.outliers", "effect.people", "effect.step", d.causes[0].id};
   for (const std::string& report : {text_of(d, {"hall", "a.csv"}), page_of(d, {"hall", "a.csv"}, {})}) {
     const auto doubtful = report.find("oubtful");
     EXPECT_LT(report.find("drift"), doubtful) << report;
     EXPECT_GT(report.rfind("step"), doubtful) << report;
+    EXPECT_TRUE(says(report, "p = 1e-08, rests on fewer than five readings")) << report;
     EXPECT_TRUE(says(report, "Also tested: outliers, people.")) << report;
   }
 }

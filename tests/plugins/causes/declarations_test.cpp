@@ -71,6 +71,7 @@ TEST_F(Declarations, AllCausesThatTheProjectPromisesAreThere) {
                            "label_swap",
                            "labels_shifted",
                            "plan_turned",
+                           "plan_shifted",
                            "column_shifted",
                            "asymmetry",
                            "noise_floor_rssi",

@@ -61,6 +61,7 @@ const std::vector<Example>& examples() {
       {"column_shifted", "column=\"places\" by=\"2\"", "column=\"places\" by=\"0\""},
       {"labels_shifted", "first=\"b\"", "first=\"a\""},
       {"plan_turned", "of=\"stations\" how=\"turned_90\" x=\"5\" y=\"3\"", "how=\"as_listed\" x=\"5\" y=\"3\""},
+      {"plan_shifted", "of=\"stations\" east=\"2\" north=\"-1\"", "east=\"0\" north=\"0\""},
       {"tx_misplaced", "radio=\"b\" x=\"9\" y=\"1\"", "radio=\"b\" x=\"14\" y=\"9\""},
       {"label_swap", "a=\"a\" b=\"b\"", "a=\"a\" b=\"a\""},
   };
@@ -165,8 +166,9 @@ TEST(AllCauses, RunTogetherOnLivingLinks) {
   }
   const TableView place = one.table("endpoint/*/pose");
   EXPECT_EQ(place.at(0, 0), 9);  // a is at the given place of b, and b is misplaced
-  // Before that, a was where b is listed, 9 m east and 6 m north of the point about which the plan is turned back.
-  EXPECT_NEAR(place.at(1, 0), 5 + 6, 1e-12);
+  // Before that, a was where b is listed, 9 m east and 6 m north of the point about which the plan is turned back, and
+  // all were shifted by 2 m.
+  EXPECT_NEAR(place.at(1, 0), 5 + 6 - 2, 1e-12);
 }
 
 TEST(Examples, AreThereForEveryCause) {

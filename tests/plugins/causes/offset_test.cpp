@@ -156,6 +156,24 @@ TEST(PlanTurned, OfRobotsItIsTheOppositeTurnOfStations) {
   EXPECT_FALSE(same_bits(turned("walls", "turned_90"), column(Site().world("", true), "link/*/level")));
 }
 
+std::vector<double> shifted(const std::string& of, const std::string& east, const std::string& north,
+                            const std::string& model = "") {
+  const std::string attributes = "of=\"" + of + "\" east=\"" + east + "\" north=\"" + north + '"';
+  const std::string it = effect("plan_shifted", attributes);
+  return column(model.empty() ? Site().world(it, true) : Site().world(it, true, 1, model), "link/*/level");
+}
+
+TEST(PlanShifted, RadiosThatStandAreWhereTheyAreListedLessTheShift) {
+  const Site moved_back(moved(moved(survey(), "a", {-3, 1, 1, 0.5}), "b", {11, 10, 4, -2}));
+  expect_near(shifted("stations", "3", "-1"), column(moved_back.world("", true), "link/*/level"));
+}
+
+TEST(PlanShifted, OfWallsItIsTheOppositeShiftOfAllRadios) {
+  EXPECT_FALSE(same_bits(shifted("walls", "3", "-1"), column(Site().world("", true), "link/*/level")));
+  expect_near(shifted("robots", "3", "-1", channel), shifted("stations", "-3", "1", channel));
+  expect_near(shifted("walls", "3", "-1", channel), column(Site().world("", true, 1, channel), "link/*/level"));
+}
+
 // Readings of a and b in turn, read a row late, are of the other one. The last row has none after it.
 TEST(ColumnShifted, NamesComeFromTheRowAfter) {
   std::vector<Reading> alternating;
