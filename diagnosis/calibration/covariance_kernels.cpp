@@ -41,12 +41,19 @@ void by_way(const LinkPlace& p, const LinkPlace& q, ByDistance& sums) {
   const double du = u.norm(), dv = v.norm();
   if (du == 0 || dv == 0) return;
   const double soft = std::pow((du + dv) / 6, 2);  // squared size of a piece
-  ByDistance own{};
+  using Pieces = Eigen::Array<double, pieces, 1>;
+  const Pieces along = Pieces::LinSpaced(pieces, 0.5, pieces - 0.5);
+  Eigen::Array<double, pieces, pieces> decay;  // first the squared distances
   for (int i = 0; i < pieces; ++i) {
     const Eigen::Vector3d from = p.a + u * (i + 0.5) - q.a;
-    for (int j = 0; j < pieces; ++j) add_decay(own, std::sqrt((from - v * (j + 0.5)).squaredNorm() + soft), 1);
+    decay.col(i) = (from.x() - v.x() * along).square() + (from.y() - v.y() * along).square() +
+                   (from.z() - v.z() * along).square() + soft;
   }
-  for (std::size_t d = 0; d < count; ++d) sums[d] += own[d] * std::sqrt(du * dv) / (2 * distances[d] * pieces);
+  decay = (decay.sqrt() / -distances[0]).exp();
+  for (std::size_t d = 0; d < count; ++d) {
+    sums[d] += decay.sum() * std::sqrt(du * dv) / (2 * distances[d] * pieces);
+    decay *= decay;
+  }
 }
 
 // By radio: offsets shared by readings with the same radio.
