@@ -18,6 +18,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "installation.hpp"
@@ -150,53 +151,74 @@ class ExamRun {
 
   Exit run() {
     watch_interrupt();
-    const std::int64_t kept = prepare(cases_in(exam_));
+    const sweep::Sources cases = cases_in(exam_);
+    const std::set<std::string> kept = prepare(cases);
     const Exit worked =
         work_on_table(reports_.folder(), {}, words_.jobs, "muster exam run", "cases", [&] { return work(); });
     sweep::JobTable table(reports_.folder());
-    const std::vector<sweep::DoneJob> done = table.done();
-    table.exclusively([&] { write_costs(done); });
-    const sweep::Counts counts = table.counts();
-    fmt::print("{} cases run, {} had a report, {} failed\n", counts.done - kept, kept, counts.failed);
+    std::vector<sweep::DoneJob> done;
+    table.exclusively([&] {  // two commands may end at once
+      done = table.done();
+      write_costs(done);
+    });
+    std::erase_if(done, [&](const sweep::DoneJob& job) { return !cases.count(job.label); });  // a case that is gone
+    const auto ran = std::count_if(done.begin(), done.end(), [&](const auto& job) { return !kept.count(job.label); });
+    const auto failed = std::count_if(done.begin(), done.end(), [](const auto& job) { return !job.fault.empty(); });
+    fmt::print("{} run, {} had a report, {} failed\n", counted(static_cast<std::size_t>(ran)), kept.size(), failed);
     for (const sweep::DoneJob& job : done)
       if (!job.fault.empty()) fmt::print("{}: {}\n", job.label, job.fault);
-    if (counts.done < counts.all && !interrupted())
-      fmt::print(stderr, "muster: note: {} cases are being run by another command\n", counts.all - counts.done);
-    if (interrupted()) {
-      fmt::print(stderr, "muster: note: {} of {} cases are done; the same command goes on with the others\n",
-                 counts.done, counts.all);
-      return Exit::interrupted;
-    }
+    tell_rest(table, cases.size(), done.size());
+    if (interrupted()) return Exit::interrupted;
     if (worked != Exit::done) return worked;
-    return counts.failed > 0 || counts.done < counts.all ? Exit::check_failed : Exit::done;
+    return failed > 0 || done.size() < cases.size() ? Exit::check_failed : Exit::done;
   }
 
  private:
-  // Makes a job of each case; those that failed or whose report is gone are to be done again. How many have a report.
-  std::int64_t prepare(const sweep::Sources& cases) const {
+  static std::string counted(std::size_t cases) { return fmt::format("{} case{}", cases, cases == 1 ? "" : "s"); }
+
+  static void tell_rest(sweep::JobTable& table, std::size_t all, std::size_t done) {
+    if (done == all) return;
+    if (interrupted() || !table.left().empty())
+      fmt::print(stderr, "muster: note: {} of {} are done; the same command goes on with the others\n", done,
+                 counted(all));
+    else
+      fmt::print(stderr, "muster: note: what is left is run by another command: {}\n", counted(all - done));
+  }
+
+  // Makes a job of each case; those that failed or whose report is gone are to be done again. Which have a report.
+  std::set<std::string> prepare(const sweep::Sources& cases) const {
     sweep::JobTable table(reports_.folder());
     if (!table.is_filled())
       table.fill({{command_source, words_.command}}, {{"cpu", "s"}, {"memory", "MB"}, {"code", ""}}, 0, {});
     const sweep::Sources before = table.sources();
-    std::int64_t kept = 0;
+    const auto command = before.find(command_source);
+    if (command == before.end())
+      throw Error(Exit::invalid_input, reports_.folder().string() +
+                                           ": has the table of a sweep; expected another folder for the reports "
+                                           "(--reports)");
+    std::set<std::string> kept;
+    sweep::Sources anew;  // of what no report has been made of
     for (const auto& [name, digest] : cases) {
+      if (!reports_.has(name)) {
+        anew[name] = digest;
+        continue;
+      }
+      kept.insert(name);
       const auto known = before.find(name);
-      const bool has_report = reports_.has(name);
-      if (has_report) ++kept;
-      if (has_report && known != before.end() && known->second != digest)
+      if (known != before.end() && known->second != digest)
         throw Error(Exit::invalid_input,
                     fmt::format("{}: is not what it was when {} was made of it; expected another folder for the "
                                 "reports (--reports)",
                                 (exam_ / name).string(), reports_.report(name).string()));
     }
-    if (const std::string& command = before.at(command_source); kept > 0 && command != words_.command)
+    if (kept.empty())
+      anew[command_source] = words_.command;
+    else if (command->second != words_.command)
       fmt::print(stderr, "muster: note: {}: reports of another command are there: {}\n", reports_.folder().string(),
-                 command);
+                 command->second);
+    table.renew(anew);
     table.add(cases);
-    std::vector<std::int64_t> again;
-    for (const sweep::DoneJob& job : table.done())
-      if (!reports_.has(job.label)) again.push_back(job.number);
-    table.reopen(again);
+    table.reopen_if([&](const sweep::Job& job) { return cases.count(job.label) && !reports_.has(job.label); });
     return kept;
   }
 

@@ -46,7 +46,7 @@ JobTable::JobTable(std::filesystem::path folder) : folder_(made(std::move(folder
     database_.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application, version));
   } else if (is != application || database_.number("PRAGMA user_version") != version) {
     throw Error(Exit::invalid_input, Place{(folder_ / file_name).string()},
-                "is no table of this version's sweeps; expected another folder (--out)");
+                "is no table of this version's sweeps; expected another folder");
   }
   making.commit();
 }
@@ -86,6 +86,13 @@ void JobTable::add(const Sources& sources) {
     ++number;
   }
   adding.commit();
+}
+
+void JobTable::renew(const Sources& sources) {
+  Transaction renewing(database_);
+  for (const auto& [name, digest] : sources)
+    Statement(database_, "UPDATE source SET digest = ? WHERE file = ?").with(digest).with(name).step();
+  renewing.commit();
 }
 
 Sources JobTable::sources() {
@@ -192,9 +199,17 @@ std::vector<Job> JobTable::left() {
   return result;
 }
 
-void JobTable::reopen(const std::vector<std::int64_t>& numbers) {
+void JobTable::reopen_if(const std::function<bool(const Job&)>& is_due) {
   Transaction reopening(database_);
-  for (const std::int64_t number : numbers) {
+  std::vector<std::int64_t> due;
+  {
+    Statement query(database_, "SELECT number, combination, seed, label FROM job WHERE done = 1");
+    while (query.step()) {
+      const Job job = job_in(query, 3);
+      if (is_due(job)) due.push_back(job.number);
+    }
+  }
+  for (const std::int64_t number : due) {
     Statement(database_, "DELETE FROM value WHERE job = ?").with(number).step();
     Statement(database_, "DELETE FROM run WHERE job = ?").with(number).step();
     Statement(database_, "UPDATE job SET done = 0, begun = 0, worker = NULL WHERE number = ?").with(number).step();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -61,6 +62,8 @@ class JobTable {
             const std::vector<std::int64_t>& seeds);
   // A job for each of these sources that the table has not, called by its name.
   void add(const Sources& sources);
+  // Sources that the table has, with other digests.
+  void renew(const Sources& sources);
   Sources sources();
   std::vector<MetricTitle> metrics();
 
@@ -70,8 +73,9 @@ class JobTable {
   // Of the claimed job. Throws Error where it is not this worker's, so that no job is recorded twice.
   void record(const Job& job, const RunResult& result);
   void release(const Job& job);
-  // Done jobs that are to be done again.
-  void reopen(const std::vector<std::int64_t>& numbers);
+  // Done jobs that are to be done again are those that `is_due` is true of. It is asked while no other process changes
+  // the table, and does not use it.
+  void reopen_if(const std::function<bool(const Job&)>& is_due);
 
   Counts counts(const Share& share = {});
   // Claimed by workers that are no more.

@@ -50,15 +50,49 @@ TEST(ExamRun, GoesOnWhereACommandFailed) {
   folder.write("mended", "");
   sat = folder.run(command + silent, {"--jobs", "2"});
   EXPECT_EQ(sat.exit, 0) << sat.err;
-  EXPECT_EQ(sat.out, "1 cases run, 2 had a report, 0 failed\n");
+  EXPECT_EQ(sat.out, "1 case run, 2 had a report, 0 failed\n");
   EXPECT_EQ(sat.err, "");
   // A report that is gone is made again; one that was there before the table stays.
   std::filesystem::remove(folder / "exam/reports/case_0003.txt");
   folder.write("exam/case_0004/measured.csv", "one more\n");
   folder.write("exam/reports/case_0004.txt", "by hand\n");
   sat = folder.run(command + silent);
-  EXPECT_EQ(sat.out, "1 cases run, 3 had a report, 0 failed\n");
+  EXPECT_EQ(sat.out, "1 case run, 3 had a report, 0 failed\n");
   EXPECT_EQ(folder.read("exam/reports/case_0004.txt"), "by hand\n");
+}
+
+// A case that failed is mended, and its report is of what it is now. One that is gone is no case, and no failure.
+TEST(ExamRun, KnowsCasesAsTheyAre) {
+  const ExamFolder folder(2);
+  const std::string command = "grep -v broken {data}";
+  folder.write("exam/case_0002/measured.csv", "broken\n");
+  EXPECT_EQ(folder.run(command).exit, 1);
+  folder.write("exam/case_0002/measured.csv", "mended\n");
+  for (int k = 0; k < 2; ++k) {
+    const Outcome sat = folder.run(command);
+    EXPECT_EQ(sat.exit, 0) << sat.err;
+    EXPECT_EQ(sat.err, "");
+  }
+  std::filesystem::remove_all(folder / "exam/case_0001");
+  std::filesystem::remove_all(folder / "exam/reports/case_0001.txt");
+  const Outcome sat = folder.run(command);
+  EXPECT_EQ(sat.out, "0 cases run, 1 had a report, 0 failed\n") << sat.err;
+  // Without its reports another command's are the first.
+  std::filesystem::remove(folder / "exam/reports/case_0002.txt");
+  for (int k = 0; k < 2; ++k) EXPECT_EQ(folder.run("cat {data}").err, "");
+}
+
+// Whoever had failed cases done again by two commands had one of them done twice.
+TEST(ExamRun, CommandsShareWhatFailed) {
+  const ExamFolder folder(4);
+  EXPECT_EQ(folder.run("false").exit, 1);
+  std::vector<Outcome> sat(2);
+  std::vector<std::thread> commands;
+  for (Outcome& each : sat)
+    commands.emplace_back([&] { each = folder.run("sleep 0.3; echo {world} >> ends; " + std::string(silent)); });
+  for (std::thread& each : commands) each.join();
+  for (const Outcome& each : sat) EXPECT_TRUE(each.exit == 0 || each.exit == 1) << each.err;
+  EXPECT_EQ(folder.lines("ends").size(), 4u);
 }
 
 TEST(ExamRun, MixesNoReportsOfOtherCases) {
@@ -114,6 +148,8 @@ TEST(ExamRun, CommandsShareAnExam) {
   std::vector<std::thread> commands;
   for (Outcome& each : sat) commands.emplace_back([&] { each = folder.run(slow + silent); });
   for (std::thread& each : commands) each.join();
+  // Whoever ends first finds the other's last case to be done still.
+  for (const Outcome& each : sat) EXPECT_TRUE(each.exit == 0 || each.exit == 1) << each.err;
   const auto ends = folder.lines("ends");
   ASSERT_EQ(ends.size(), 6u);
   for (int i = 1; i <= 6; ++i) EXPECT_EQ(ends[static_cast<std::size_t>(i - 1)], ExamFolder::name(i));
