@@ -77,18 +77,21 @@ void Progress::at(const std::string& now) {
 
 void Progress::tell_if_endless(double share) {
   using Seconds = std::chrono::duration<double>;
-  constexpr double after = 5, hour = 3600, long_rest = 6 * hour;  // s
+  constexpr double after = 2, hour = 3600, long_rest = 6 * hour;  // s
+  if (first_share_ < 0) first_share_ = share;                     // of a run that goes on from a snapshot
   if (told_ || ++asked_ % 64 != 0) return;
   const double lasted = Seconds(std::chrono::steady_clock::now() - begun_).count();
-  if (lasted < after || !(share > 0)) return;
+  const double done = share - first_share_;
+  if (lasted < after || !(done > 0)) return;
   told_ = true;
-  const double hours = lasted * (1 - share) / share / hour;
+  const double hours = lasted * (1 - share) / done / hour;
   if (hours < long_rest / hour) return;
   const std::string rest = hours < 48          ? fmt::format("{:.0f} hours", hours)
                            : hours < 2 * 8766. ? fmt::format("{:.0f} days", hours / 24)
                                                : fmt::format("{:.0f} years", hours / 8766);
-  fmt::print(stderr, "muster: note: {} takes another {} at this pace; Ctrl-C ends it with all records whole\n", what_,
-             rest);
+  fmt::print(stderr, "{}muster: note: {} takes another {} at this pace; Ctrl-C ends it with all records whole\n",
+             shown_ ? "\r\x1b[K" : "", what_, rest);
+  last_ = -1;
 }
 
 void expect_channel(const Simulation& run) {

@@ -63,7 +63,7 @@ class Progress {
   void at(double share);
   // What is being done, where its share of the whole is not known. Where the output is no terminal, a line every 30 s.
   void at(const std::string& now);
-  // Notes once, some seconds after the begin, that at this pace the rest takes hours or more.
+  // Notes once, some seconds after the first call, that at this pace the rest takes hours or more.
   void tell_if_endless(double share);
 
  private:
@@ -72,6 +72,7 @@ class Progress {
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), spoken_ = begun_;
   int last_ = -1;
   unsigned asked_ = 0;
+  double first_share_ = -1;
   bool told_ = false;
 };
 

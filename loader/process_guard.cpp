@@ -54,15 +54,19 @@ std::pair<dev_t, ino_t> identity(int descriptor) {
 }
 
 // Read where it is told: umask() would have to change it, for a moment in which other threads may make a file.
-mode_t file_mask() {
+// None where it cannot be read.
+std::optional<mode_t> file_mask() {
   char text[512] = {};
   const int told = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
-  if (told < 0) return 0;
+  if (told < 0) return {};
   const auto size = ::read(told, text, sizeof text - 1);
   ::close(told);
   const char* const at = size > 0 ? std::strstr(text, "\nUmask:") : nullptr;
-  return at ? static_cast<mode_t>(std::strtoul(at + std::strlen("\nUmask:"), nullptr, 8)) : 0;
+  if (!at) return {};
+  return static_cast<mode_t>(std::strtoul(at + std::strlen("\nUmask:"), nullptr, 8));
 }
+
+bool differ(std::optional<mode_t> a, std::optional<mode_t> b) { return a && b && *a != *b; }
 
 using Limits = std::array<struct rlimit, RLIM_NLIMITS>;
 
@@ -112,7 +116,7 @@ std::string ProcessGuard::what() const {
     if (!same(now[i], handlers_[i])) add(std::string("takes the handler of SIG") + ::sigabbrev_np(watched[i]));
   if (identity(STDOUT_FILENO) != standard_[0]) add("closes or exchanges the standard output");
   if (identity(STDERR_FILENO) != standard_[1]) add("closes or exchanges the standard error");
-  if (file_mask() != umask_) add("changes the umask to " + octal(file_mask()));
+  if (const auto mask = file_mask(); differ(mask, umask_)) add("changes the umask to " + octal(*mask));
   const Limits limited = limits();
   for (std::size_t i = 0; i < limited.size(); ++i)
     if (!same(limited[i], limits_[i])) add(std::string("changes the limit RLIMIT_") + limit_names[i]);
@@ -129,7 +133,7 @@ void ProcessGuard::restore() const noexcept {
   const Handlers now = handlers();
   for (std::size_t i = 0; i < watched.size(); ++i)
     if (!same(now[i], handlers_[i])) ::sigaction(watched[i], &handlers_[i], nullptr);
-  if (file_mask() != umask_) ::umask(umask_);
+  if (differ(file_mask(), umask_)) ::umask(*umask_);
   const Limits limited = limits();
   for (std::size_t i = 0; i < limited.size(); ++i)
     if (!same(limited[i], limits_[i])) ::setrlimit(static_cast<__rlimit_resource>(i), &limits_[i]);

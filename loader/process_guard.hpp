@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <locale>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -37,7 +38,7 @@ class ProcessGuard {
   sigset_t signals_;
   std::array<struct sigaction, 6> handlers_;
   std::array<std::pair<dev_t, ino_t>, 2> standard_;  // output, error
-  mode_t umask_;
+  std::optional<mode_t> umask_;
   std::array<struct rlimit, RLIM_NLIMITS> limits_;
 };
 

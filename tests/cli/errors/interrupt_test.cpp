@@ -46,7 +46,7 @@ TEST(EndlessRun, IsToldWhenItWillEnd) {
   folder.write("world.xml", world_of(many));
   Surroundings around;
   around.meanwhile = [](int process) {
-    ::usleep(7'000'000);
+    ::usleep(3'500'000);
     ::kill(process, SIGINT);
   };
   const auto outcome =
