@@ -1,0 +1,236 @@
+#include "diagnosis/pipeline/own_world_fits.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "diagnosis/inference/score/refine.hpp"
+#include "diagnosis/radio/links/drawn_term.hpp"
+#include "diagnosis/radio/thresholds.hpp"
+
+namespace muster::diagnosis {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// Least squares within bounds: a coefficient beyond one is held there.
+VectorXd bounded_least_squares(const MatrixXd& design, VectorXd y, const VectorXd& lower, const VectorXd& upper) {
+  VectorXd result = VectorXd::Zero(design.cols());
+  std::vector<Index> free(static_cast<std::size_t>(design.cols()));
+  for (std::size_t j = 0; j < free.size(); ++j) free[j] = static_cast<Index>(j);
+  while (!free.empty()) {
+    const VectorXd found = design(Eigen::all, free).colPivHouseholderQr().solve(y);
+    std::vector<Index> inside;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const Index k = free[j];
+      result[k] = std::clamp(found[static_cast<Index>(j)], lower[k], upper[k]);
+      if (result[k] == found[static_cast<Index>(j)]) inside.push_back(k);
+    }
+    if (inside.size() == free.size()) break;
+    for (const Index k : free) {
+      if (!std::count(inside.begin(), inside.end(), k)) y -= result[k] * design.col(k);
+    }
+    free = std::move(inside);
+  }
+  return result;
+}
+
+}  // namespace
+
+VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) {
+  std::map<std::size_t, std::pair<double, double>> sums;  // and counts
+  for (Index i = 0; i < values.size(); ++i) {
+    auto& [sum, count] = sums[group[static_cast<std::size_t>(i)]];
+    sum += values[i];
+    count += 1;
+  }
+  VectorXd result = values;
+  for (Index i = 0; i < values.size(); ++i) {
+    const auto& [sum, count] = sums[group[static_cast<std::size_t>(i)]];
+    result[i] -= sum / count;
+  }
+  return result;
+}
+
+OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup) : s_(setup), moved_(setup.model) {
+  const ObservedLevels levels = observed_levels(s_.data, s_.receiver, s_.fitted.readings, s_.used.rows);
+  std::vector<Index> known, of_used;
+  for (std::size_t i = 0; i < s_.used.rows.size(); ++i) {
+    if (levels.bounds.known.empty() || levels.bounds.known[i] == noise::Known::value)
+      known.push_back(static_cast<Index>(i));
+  }
+  const std::size_t every = std::max<std::size_t>(1, known.size() / thresholds::own_world_readings);
+  for (std::size_t i = 0; i < known.size(); i += every) {
+    kept_.push_back(s_.used.rows[static_cast<std::size_t>(known[i])]);
+    of_used.push_back(known[i]);
+  }
+  y_ = levels.measured(of_used);
+  // What each radio sends, or each hears where one sends.
+  const bool of_senders = s_.data.tx.levels.size() > 1;
+  for (const Index row : kept_)
+    radio_.push_back((of_senders ? s_.data.tx : s_.data.rx).level[static_cast<std::size_t>(row)]);
+  radios_ = std::set(radio_.begin(), radio_.end());
+  set(s_.base.values);
+}
+
+bool OwnWorldFits::may_level() const { return radios_.size() > 1 && radios_.size() <= thresholds::own_world_levels; }
+
+VectorXd OwnWorldFits::levels_with(const Hypothesis& h) try {
+  const Supposed supposed(s_.model, h);
+  return s_.model.expected()(kept_);
+} catch (const Error&) {
+  return {};
+}
+
+void OwnWorldFits::set(const VectorXd& values) {
+  for (std::size_t j = 0; j < s_.base.paths.size(); ++j) moved_.set(s_.base.paths[j], values[static_cast<Index>(j)]);
+}
+
+OwnWorld OwnWorldFits::world_with(const Hypothesis& hypothesis) {
+  set(s_.base.values);
+  Supposed supposed(s_.model, hypothesis);
+  OwnWorld world = linearised(hypothesis);
+  for (int round = 0; round < 2 && world.hypothesis.place; ++round) {
+    set(world.values);
+    world.hypothesis.place = moved_to_best(supposed, *world.hypothesis.place);
+    supposed.move(*world.hypothesis.place);
+    world = linearised(world.hypothesis);
+  }
+  set(s_.base.values);
+  return world;
+}
+
+// At the parameters of the fit.
+OwnWorld OwnWorldFits::linearised(const Hypothesis& hypothesis) {
+  Sensitivities own = s_.base;
+  own.slopes = slopes_at(s_.model, own);
+  set(own.values);
+  own.mean = s_.model.expected();
+  OwnWorld world{hypothesis, 0, 0, y_ - own.offset()(kept_), own.slopes(kept_, Eigen::all)};
+  world.values = bounded_least_squares(world.design, world.rest, own.lower, own.upper);
+  world.squares = (world.rest - world.design * world.values).squaredNorm();
+  world.levelled = world.squares;
+  if (!may_level()) return with_ends(std::move(world));
+  MatrixXd design = world.design;
+  for (Index j = 0; j < design.cols(); ++j) design.col(j) = centred(world.design.col(j), radio_);
+  const VectorXd rest = centred(world.rest, radio_);
+  world.levelled = (rest - design * bounded_least_squares(design, rest, own.lower, own.upper)).squaredNorm();
+  return with_ends(std::move(world));
+}
+
+OwnWorld OwnWorldFits::with_ends(OwnWorld world) const {
+  const auto ends = s_.model.ends_now();
+  for (const Index row : kept_) world.ends.push_back(ends[static_cast<std::size_t>(row)]);
+  world.rows = std::make_shared<std::optional<RowsOfWorld>>();
+  return world;
+}
+
+InPlan OwnWorldFits::moved_to_best(Supposed& supposed, const InPlan& start) {
+  const auto value = [&](const VectorXd& theta) {
+    supposed.move({theta[0], theta[1]});
+    const VectorXd rest = y_ - s_.model.expected()(kept_);
+    return -(rest.array() - rest.mean()).square().sum();
+  };
+  inference::Candidate place;
+  const Eigen::Vector2d at(start[0], start[1]);
+  place.refinement.lower = at.array() - thresholds::own_world_reach;
+  place.refinement.upper = at.array() + thresholds::own_world_reach;
+  place.refinement.step = Eigen::Vector2d::Ones();
+  const VectorXd best = inference::local_search(place, at, 40, value).first;
+  return {best[0], best[1]};
+}
+
+LinkReadings OwnWorldFits::readings_of(const OwnWorld& world) const {
+  LinkReadings r;
+  const auto n = static_cast<Index>(kept_.size());
+  r.tx_at.resize(3, n);
+  r.rx_at.resize(3, n);
+  for (Index i = 0; i < n; ++i) {
+    const auto& [tx, rx] = world.ends[static_cast<std::size_t>(i)];
+    r.tx.push_back(tx.radio);
+    r.rx.push_back(rx.radio);
+    r.tx_at.col(i) << tx.x, tx.y, tx.z;
+    r.rx_at.col(i) << rx.x, rx.y, rx.z;
+    if (!s_.data.t.empty()) r.t.push_back(s_.data.t[static_cast<std::size_t>(kept_[static_cast<std::size_t>(i)])]);
+  }
+  return r;
+}
+
+// Single readings are rows: what is averaged in one world is of several links in another.
+const RowsOfWorld& OwnWorldFits::rows_of(const OwnWorld& world) const {
+  std::optional<RowsOfWorld>& made = *world.rows;
+  if (!made) {
+    LinkRowLimits limits;
+    limits.way = -1;
+    const LinkLayout layout(readings_of(world), limits, {}, true, drawn_correlation(s_.model));
+    const noise::Rows rows = layout.rows();
+    made.emplace(RowsOfWorld{rows, noise::Field(layout.sites(rows), {.seed = s_.options.seed})});
+  }
+  return *made;
+}
+
+Likelihood OwnWorldFits::likelihood_of(const OwnWorld& world) const {
+  const auto& [rows, field] = rows_of(world);
+  const VectorXd y = rows.mean(world.rest);
+  const MatrixXd design = rows.mean(world.design);
+  const noise::Fit fit = noise::fit_families(field, y, design, s_.options.prior).front();
+  return {fit.log_likelihood(), fit.covariance};
+}
+
+InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance) {
+  InPlan sd{};
+  constexpr double step = 0.05;  // m
+  const OwnWorld start = world;  // its rows, whatever becomes of the place
+  const auto& [rows, field] = rows_of(start);
+  const noise::Whitener whitener(field, covariance);
+  for (int round = 0; round < 2; ++round) {
+    set(world.values);
+    MatrixXd columns(static_cast<Index>(kept_.size()), 2);
+    {
+      Supposed supposed(s_.model, world.hypothesis);
+      const InPlan at = *world.hypothesis.place;
+      for (const std::size_t k : {0, 1}) {
+        InPlan more = at, less = at;
+        more[k] += step;
+        less[k] -= step;
+        supposed.move(more);
+        columns.col(static_cast<Index>(k)) = s_.model.expected()(kept_);
+        supposed.move(less);
+        columns.col(static_cast<Index>(k)) -= s_.model.expected()(kept_);
+      }
+    }
+    columns /= 2 * step;
+    const noise::Whitened base =
+        noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), s_.options.prior);
+    const noise::Basis place = noise::basis_of(base.basis.rest(whitener(rows.mean(columns))));
+    const VectorXd by = place.coefficients(place.q.transpose() * base.residual, 2);
+    const MatrixXd uncertainty = place.uncertainty(2);
+    for (const std::size_t k : {0, 1}) {
+      sd[k] = std::sqrt(uncertainty(static_cast<Index>(k), static_cast<Index>(k)));
+      (*world.hypothesis.place)[k] += std::clamp(by[static_cast<Index>(k)], -1.0, 1.0);
+    }
+    Supposed supposed(s_.model, world.hypothesis);
+    const Hypothesis here = world.hypothesis;
+    world = linearised(here);
+  }
+  return sd;
+}
+
+OwnWorld OwnWorldFits::with_levels(OwnWorld world) const {
+  const Index own = world.design.cols();
+  world.design.conservativeResize(Eigen::NoChange, own + static_cast<Index>(radios_.size()) - 1);
+  world.design.rightCols(world.design.cols() - own).setZero();
+  for (std::size_t i = 0; i < radio_.size(); ++i) {
+    const auto at = std::distance(radios_.begin(), radios_.find(radio_[i]));
+    if (at > 0) world.design(static_cast<Index>(i), own + at - 1) = 1;
+  }
+  return world;
+}
+
+}  // namespace muster::diagnosis

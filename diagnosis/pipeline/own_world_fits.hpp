@@ -1,0 +1,81 @@
+// Worlds that have a fault of the map or the log each, with the world's parameters and the noise fitted anew in them.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "diagnosis/inference/noise/fit.hpp"
+#include "diagnosis/pipeline/own_world_hypotheses.hpp"
+#include "diagnosis/radio/links/link_rows.hpp"
+
+namespace muster::diagnosis {
+
+// Rows of the readings where they were in a world, and the field that they share there.
+struct RowsOfWorld {
+  noise::Rows rows;
+  noise::Field field;
+};
+
+// A world with a hypothesis, linearised at its own fit.
+struct OwnWorld {
+  Hypothesis hypothesis;
+  double squares = 0;    // left by least squares
+  double levelled = 0;   // the same with a level of each radio
+  Eigen::VectorXd rest;  // measured less the mean at zero parameters
+  Eigen::MatrixXd design;
+  std::vector<std::array<End, 2>> ends{};
+  Eigen::VectorXd values{};  // of the parameters, by least squares
+  // Made when first asked for; the same for copies with other columns, whose ends are the same.
+  std::shared_ptr<std::optional<RowsOfWorld>> rows{};
+};
+
+struct Likelihood {
+  double nats = -std::numeric_limits<double>::infinity();
+  noise::Covariance noise{};
+};
+
+class OwnWorldFits {
+ public:
+  // The model is at the setup's fitted parameters as long as this lives, but while a world is fitted.
+  explicit OwnWorldFits(DiagnosisSetup& setup);
+
+  const std::vector<Eigen::Index>& rows() const { return kept_; }   // of the table, of the readings
+  const Eigen::VectorXd& measured() const { return y_; }            // dBm, there
+  const std::vector<std::size_t>& radio() const { return radio_; }  // of each: which sends, or hears where one sends
+  double numbers_of_levels() const { return static_cast<double>(radios_.size()) - 1; }
+  bool may_level() const;  // True if radios are few enough for a level of each
+  // dBm, expected with the hypothesis; empty if it cannot run in this world.
+  Eigen::VectorXd levels_with(const Hypothesis& hypothesis);
+  // The world with the hypothesis: its place and the parameters are fitted in turn.
+  OwnWorld world_with(const Hypothesis& hypothesis);
+  // With a level of each radio but one.
+  OwnWorld with_levels(OwnWorld world) const;
+  // Profile likelihood of the readings, with the noise fitted in this world.
+  Likelihood likelihood_of(const OwnWorld& world) const;
+  // Moves the place by generalised least squares; its standard errors.
+  InPlan settle(OwnWorld& world, const noise::Covariance& covariance);
+
+ private:
+  void set(const Eigen::VectorXd& values);
+  OwnWorld linearised(const Hypothesis& hypothesis);
+  OwnWorld with_ends(OwnWorld world) const;
+  InPlan moved_to_best(Supposed& supposed, const InPlan& start);
+  LinkReadings readings_of(const OwnWorld& world) const;
+  const RowsOfWorld& rows_of(const OwnWorld& world) const;
+
+  DiagnosisSetup& s_;
+  ParameterGuard moved_;
+  std::vector<Eigen::Index> kept_;
+  std::vector<std::size_t> radio_;
+  std::set<std::size_t> radios_;
+  Eigen::VectorXd y_;
+};
+
+// Each less the mean of its group.
+Eigen::VectorXd centred(const Eigen::VectorXd& values, const std::vector<std::size_t>& group);
+
+}  // namespace muster::diagnosis
