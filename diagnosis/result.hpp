@@ -19,6 +19,7 @@ struct CauseValue {
   double value = 0, stderror = 0, lower95 = 0, upper95 = 0;
   double minimum = 0, maximum = 0;  // as declared
   bool cyclic = false;              // an angle: its interval may extend beyond these
+  bool by_ratio = false;            // sought by its logarithm: 1 and 2 are as far apart as 10 and 20
 };
 
 // A place that one standing radio alone sees: how wide it is shows, and not how far off.

@@ -18,7 +18,16 @@ CauseValue value_of(const muster_param& p, double value, double below, double ab
   const double at = std::clamp(value, p.min, p.max), sd = (below + above) / (2 * thresholds::normal95);
   if (p.flags & MUSTER_CYCLIC)
     return {p.name, p.unit, at, sd, at - std::min(below, M_PI), at + std::min(above, M_PI), p.min, p.max, true};
-  return {p.name, p.unit, at, sd, std::max(at - below, p.min), std::min(at + above, p.max), p.min, p.max};
+  return {p.name,
+          p.unit,
+          at,
+          sd,
+          std::max(at - below, p.min),
+          std::min(at + above, p.max),
+          p.min,
+          p.max,
+          false,
+          (p.flags & MUSTER_LOG) != 0};
 }
 
 struct Reach {
@@ -153,14 +162,24 @@ CauseEstimate cause_estimate(const inference::Finding& f, const CauseCandidate& 
   return out;
 }
 
+namespace {
+
+// Its distance from a bound, as a share of its range.
+double from_bound(const CauseValue& v, double bound) {
+  return v.by_ratio ? std::log(v.value / bound) / std::log(v.maximum / v.minimum)
+                    : (v.value - bound) / (v.maximum - v.minimum);
+}
+
+}  // namespace
+
 std::string doubt_at_own_bound(const CauseEstimate& cause) {
   for (const CauseValue& v : cause.values) {
     const bool is_strength = v.unit == "dB" || v.unit.empty();
-    const double bound = v.value - v.minimum < v.maximum - v.value ? v.minimum : v.maximum;
+    const double bound = from_bound(v, v.minimum) < -from_bound(v, v.maximum) ? v.minimum : v.maximum;
     // Of two at least, and two is as good.
     const bool is_count = v.unit.empty() && bound == v.minimum && bound > 1 && bound == std::floor(bound);
     if (!is_strength || is_count || bound == 0 || (v.unit.empty() && bound == 1)) continue;
-    if (std::abs(v.value - bound) <= thresholds::at_bound * (v.maximum - v.minimum))
+    if (std::abs(from_bound(v, bound)) <= thresholds::at_bound)
       return fmt::format("its {} ends at the bound of {}, so that something else may do this", v.name,
                          print_real(bound) + (v.unit.empty() ? "" : ' ' + v.unit));
   }

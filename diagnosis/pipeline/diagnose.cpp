@@ -113,7 +113,8 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   if (found.interrupted) return found;
   if (watch.stop()) return interrupted(std::move(found));
   const OwnWorldVerdict verdict = given->in_own_worlds(found);
-  const auto [spoiler, blockage] = first_in_company(found, causes_on(plugins));
+  const std::vector<Cause> causes = causes_on(plugins);
+  const auto [spoiler, blockage] = first_in_company(found, causes);
   OwnWorldVerdict exchanged{{}, found.parameters, {}, {}};
   if (spoiler && !blockage) exchanged.cause = given->exchange(*spoiler, found);
   given.reset();
@@ -132,6 +133,8 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   Diagnosis first = found;
   first.causes = {*spoiler};
   first.causes[0].sought_as.clear();
+  // What comes near in the corrected world decides that.
+  if (first.causes[0].doubt == doubt_by_imitator(*spoiler, found.checks, causes)) first.causes[0].doubt.clear();
   const TemporaryFolder folder;
   Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end});
   if (!blockage) {
@@ -155,6 +158,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     return result;
   }
   again.added_radios = found.added_radios;
+  if (first.causes[0].doubt.empty()) first.causes[0].doubt = doubt_by_imitator(first.causes[0], again.checks, causes);
   add_blockage(first.causes[0], again);
   return again;
 }

@@ -165,6 +165,14 @@ std::string comes_near(const inference::Check& check) {
                      std::exp(check.log_p));
 }
 
+// So many ways or places of links.
+std::string places_of(std::size_t count, const std::set<std::string>& links) {
+  constexpr std::size_t most = 3;  // names of a sentence
+  const std::string names =
+      links.size() > most ? fmt::format("{} links", links.size()) : fmt::format("{}", fmt::join(links, ", "));
+  return count == links.size() ? names : fmt::format("{} ways or places of {}", count, names);
+}
+
 std::string in_words(const ScatterByLevel& scatter) {
   return fmt::format("single readings scatter by {:.1f} dB where levels are low and by {:.1f} dB where they are high",
                      scatter.weak, scatter.strong);
@@ -219,13 +227,12 @@ std::string doubt_by_link(const LawSources& s, const VectorXd& residual, const L
   for (const LinkInNeed& link : links) all.add(link);
   const auto count = static_cast<double>(links.size());
   LinkInNeed first;  // the links so far, together
-  std::string names;
+  std::set<std::string> names;
   for (std::size_t k = 0; k < links.size(); ++k) {
     const auto many = static_cast<double>(k + 1);
     if (many > thresholds::few_links * count) break;
     first.add(links[k]);
-    const std::set<std::string> ends = s.model.link_of(links[k].ends.first, links[k].ends.second);
-    names += fmt::format("{}{}", k == 0 ? "" : ", ", fmt::join(ends, "-"));
+    names.insert(fmt::format("{}", fmt::join(s.model.link_of(links[k].ends.first, links[k].ends.second), "-")));
     if (first.need < thresholds::most_of_few_links * all.need) continue;
     const double by_chance = all.need * first.readings / all.readings;
     // As many others of the links might have been the first.
@@ -234,7 +241,7 @@ std::string doubt_by_link(const LawSources& s, const VectorXd& residual, const L
       return fmt::format(
           "{} of {} readings that are off are of {}, where chance has {:.0f}: something happens there, and not to all "
           "readings",
-          first.need, all.need, names, by_chance);
+          first.need, all.need, places_of(k + 1, names), by_chance);
   }
   return "";
 }

@@ -246,7 +246,6 @@ TEST(MeasurementGeometry, TakesARadioThatIsSetUpAFewTimesForOneThatStands) {
   EXPECT_TRUE(drives.moves.at(1));
 }
 
-// A factor of e in either direction: 1.96 of those, not 216 dB about 100.
 // Beyond 520 m an exponent of 3 was lower by 5: a hill, as it happens.
 TEST(CauseEstimate, AStrengthAtItsBoundIsInDoubt) {
   CauseEstimate slope;
@@ -263,6 +262,16 @@ TEST(CauseEstimate, AStrengthAtItsBoundIsInDoubt) {
   EXPECT_EQ(doubt_at_own_bound(two), "");
 }
 
+// Of 1 to 10,000 dB a thousandth is 10 dB; by ratios 8 dB are a fifth of the way from 1.
+TEST(CauseEstimate, AStrengthSoughtByItsLogarithmIsAtItsBoundByItsRatio) {
+  CauseEstimate saturates;
+  saturates.values = {{"knee", "dB", 8, 1, 6, 10, 1, 1e4, false, true}};
+  EXPECT_EQ(doubt_at_own_bound(saturates), "");
+  saturates.values[0].value = 1.005;
+  EXPECT_NE(doubt_at_own_bound(saturates), "");
+}
+
+// A factor of e in either direction: 1.96 of those, not 216 dB about 100.
 TEST(CauseEstimate, IntervalOfAParameterSoughtByItsLogarithmIsAFactor) {
   muster_param knee{};
   knee.name = "knee";
