@@ -67,8 +67,13 @@ bool measures_reception(const std::string& name) {
   return has_word_of(name, words);
 }
 
+bool is_signal_to_noise(const std::string& name) {
+  static const std::set<std::string> words = {"snr", "sinr", "lsnr", "esnr"};
+  return has_word_of(name, words);
+}
+
 bool goes_with_time(const std::string& name, const std::vector<double>& values, const std::vector<double>& t,
-                    const std::vector<std::size_t>& sender) {
+                    const std::vector<std::size_t>& stream) {
   static const std::set<std::string> counters = {
       "seq",     "seqno",   "sequence", "packet", "pkt",    "packetid", "count",   "cnt",   "fcnt",
       "counter", "frame",   "index",    "idx",    "number", "num",      "nr",      "no",    "id",
@@ -79,7 +84,7 @@ bool goes_with_time(const std::string& name, const std::vector<double>& values, 
   if (!may_count && !may_tell_time) return false;
   std::map<std::size_t, InTime> of;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (std::isfinite(values[i]) && std::isfinite(t[i])) of[sender[i]].emplace_back(t[i], values[i]);
+    if (std::isfinite(values[i]) && std::isfinite(t[i])) of[stream[i]].emplace_back(t[i], values[i]);
   std::size_t looked = 0;
   for (auto& [who, own] : of) {
     if (own.size() < thresholds::fewest_counted) continue;

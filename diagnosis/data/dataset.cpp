@@ -72,18 +72,27 @@ bool varies(const std::vector<double>& values) {
   return false;
 }
 
+// Of each reading a number of its sender and receiver.
+std::vector<std::size_t> streams_of(const Dataset& data) {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    result.push_back(data.tx.level[i] * data.rx.levels.size() + data.rx.level[i]);
+  return result;
+}
+
 // Says why nothing depends on a column, where that is so. Below an SNR of 0 dB a level is mostly noise.
 void doubt(Covariate& column, Dataset& data) {
   if (measures_reception(column.name))
     column.no_cause = "it measures what was received, as the level does, which therefore does not depend on it";
   else if (!data.t.empty() && !column.values.empty() &&
-           goes_with_time(column.name, column.values, data.t, {data.tx.level.begin(), data.tx.level.end()}))
+           goes_with_time(column.name, column.values, data.t, streams_of(data)))
     column.no_cause = "it counts on as time does, and what depends on time is sought there";
-  if (column.name.find("snr") == column.name.npos || column.values.empty()) return;
+  if (!is_signal_to_noise(column.name) || column.values.empty()) return;
   const auto noisy = std::count_if(column.values.begin(), column.values.end(), [](double v) { return v < 0; });
   if (noisy > 0)
-    data.notes.push_back(std::to_string(noisy) + " of " + std::to_string(data.rows()) + " readings have a " +
-                         quote(column.name) + " below 0: their levels are noise more than signal, and look too high");
+    data.notes.push_back("of " + std::to_string(data.rows()) + " readings " + std::to_string(noisy) +
+                         (noisy == 1 ? " has a " : " have a ") + quote(column.name) +
+                         " below 0: such levels are noise more than signal, and look too high");
 }
 
 void read_covariates(Dataset& data) {

@@ -14,14 +14,14 @@ namespace {
 
 struct Log {
   std::vector<double> t, values;
-  std::vector<std::size_t> sender;
+  std::vector<std::size_t> stream;
   void add(std::size_t who, double time, double value) {
-    sender.push_back(who);
+    stream.push_back(who);
     t.push_back(time);
     values.push_back(value);
   }
   bool goes_with_time(const std::string& name = "packet") const {
-    return diagnosis::goes_with_time(name, values, t, sender);
+    return diagnosis::goes_with_time(name, values, t, stream);
   }
 };
 
@@ -79,6 +79,21 @@ TEST(ColumnDoubts, OtherMeasuresOfReceptionAreKnownByName) {
     EXPECT_FALSE(measures_reception(name)) << name;
 }
 
+// Each number stands there three times, by sender alone it would stay too often to count.
+TEST(ColumnDoubts, APacketThatThreeGatewaysHearCountsOnce) {
+  const test::Folder folder;
+  std::string text = "t[s],tx,rx,distance[m],rssi[dBm],packet,SNR[dB]\n";
+  for (int i = 0; i < 60; ++i)
+    for (const char* gateway : {"g1", "g2", "g3"})
+      text += std::to_string(10 * i) + ",node," + gateway + ",100," + std::to_string(-90 - i % 7) + ',' +
+              std::to_string(i) + ',' + (i == 3 && *(gateway + 1) == '1' ? "-2" : "5") + '\n';
+  const Dataset data = read_dataset(folder.write("log.csv", text));
+  ASSERT_EQ(data.covariates.size(), 2u);
+  EXPECT_EQ(data.covariates[0].no_cause, "it counts on as time does, and what depends on time is sought there");
+  EXPECT_THAT(data.notes, testing::Contains("of 180 readings 1 has a \"SNR[dB]\" below 0: such levels are noise more "
+                                            "than signal, and look too high"));
+}
+
 TEST(ColumnDoubts, AreSaidAndNotTested) {
   const test::Folder folder;
   std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm],snr[dB],packet,height\n";
@@ -95,8 +110,8 @@ TEST(ColumnDoubts, AreSaidAndNotTested) {
               testing::ElementsAre("snr: it measures what was received, as the level does, which therefore does not "
                                    "depend on it",
                                    "packet: it counts on as time does, and what depends on time is sought there"));
-  EXPECT_THAT(data.notes, testing::Contains("9 of 40 readings have a \"snr[dB]\" below 0: their levels are noise more "
-                                            "than signal, and look too high"));
+  EXPECT_THAT(data.notes, testing::Contains("of 40 readings 9 have a \"snr[dB]\" below 0: such levels are noise "
+                                            "more than signal, and look too high"));
 }
 
 }  // namespace
