@@ -280,6 +280,9 @@ inline constexpr double borne_out_share = 0.5;
 // readings; a stay on average, from which what happens in time is held against how stays differ; chosen;
 // Stays.DecideWhatHappensBetweenThem
 inline constexpr double readings_a_stay = 5;
+// share; of the readings that lie in stays, below which how stays differ decides nothing; chosen;
+// Stays.AreNotWhatARobotDrives
+inline constexpr double share_in_stays = 0.9;
 // share; of the variance of columns in time within stays, up to which they differ between stays alone; chosen; none
 inline constexpr double within_stays = 0.3;
 // cells; effective number below which the sandwich variance is not used; chosen; none

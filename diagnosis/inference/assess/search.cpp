@@ -152,7 +152,7 @@ Finding Search::finding_of(const Term& term, Status status) const {
   finding.gain = term.gain;
   finding.evidence = term.evidence;
   finding.log_p = term.log_p;
-  finding.reach = reach_of(term.columns * finding.coefficients);
+  finding.reach = reach_of(state_.rows().by_stream(term.columns * finding.coefficients));
   finding.inflation = term.inflation;
   return finding;
 }

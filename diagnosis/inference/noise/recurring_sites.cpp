@@ -13,6 +13,7 @@ namespace muster::noise {
 RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
   stream_.resize(at(sites.size()), 0);
   std::map<std::array<long, 7>, Index> number;
+  std::set<std::pair<Index, int>> streams;
   for (Index i = 0; i < sites.size(); ++i) {
     if (sites.is_alone(i)) {
       site_.push_back(static_cast<Index>(rows_.size()));
@@ -31,13 +32,9 @@ RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
     several_streams_ = several_streams_ || (!rows.empty() && stream_[at(rows.front())] != stream_[at(i)]);
     rows.push_back(i);
     site_.push_back(entry->second);
+    streams.emplace(entry->second, stream_[at(i)]);
   }
-}
-
-Index RecurringSites::streams() const {
-  std::set<std::pair<Index, int>> streams;
-  for (std::size_t i = 0; i < site_.size(); ++i) streams.emplace(site_[i], stream_[i]);
-  return static_cast<Index>(streams.size());
+  streams_ = static_cast<Index>(streams.size());
 }
 
 double RecurringSites::share() const {

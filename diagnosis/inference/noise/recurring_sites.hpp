@@ -21,7 +21,7 @@ class RecurringSites {
   const std::vector<std::vector<Index>>& sites() const { return rows_; }  // the rows of each, in their order
   // Share of rows whose site has others, of those that share a field.
   double share() const;
-  Index streams() const;                                     // in all, each counted at each of its sites
+  Index streams() const { return streams_; }  // of rows that share a field, each counted at each of its sites
   bool several_streams() const { return several_streams_; }  // at some site
 
  private:
@@ -31,6 +31,7 @@ class RecurringSites {
   std::vector<int> stream_;
   std::vector<std::vector<Index>> rows_;  // of each site
   std::size_t sharing_ = 0;
+  Index streams_ = 0;
   bool several_streams_ = false;
 };
 

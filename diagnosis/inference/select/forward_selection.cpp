@@ -180,7 +180,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   else if (c.kind == Kind::named && fits_each_site(state, lead))
     trial.reason = "has more numbers than the sites of the network leave";
   else if (trial.of_stays = is_chance_of_stays(state, c, lead.columns, design); trial.of_stays)
-    trial.reason = "is not beyond how stays differ by chance";
+    trial.reason = chance_of_stays;
   trial.accepted = trial.reason.empty();
   return trial;
 }
@@ -369,8 +369,9 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
     }
     if (passing.empty()) {
       const Blocked only{blocked.for_good, blocked.for_good};
-      const auto lead = stated_noise_pass(state, [&](const Candidate& c) { return usable(state, only, c); });
-      if (!lead || is_chance_of_stays(state, lead->candidate(), lead->columns, model.design)) return;
+      const auto lead = stated_noise_pass(
+          state, [&](const Candidate& c) { return usable(state, only, c); }, trials);
+      if (!lead) return;
       enter_as_stated(state, *lead);
       blocked.now = blocked.for_good;
       scored.reset();

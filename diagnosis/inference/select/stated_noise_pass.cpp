@@ -6,6 +6,7 @@
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/select/stays.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -72,8 +73,8 @@ void weigh_beside(const ModelState& state, const Eigen::MatrixXd& design, const 
 
 }  // namespace
 
-std::optional<ScoredCandidate> stated_noise_pass(ModelState& state,
-                                                 const std::function<bool(const Candidate&)>& usable) {
+std::optional<ScoredCandidate> stated_noise_pass(ModelState& state, const std::function<bool(const Candidate&)>& usable,
+                                                 std::vector<Trial>& trials) {
   if (state.problem().stated.shadowing <= 0 || state.problem().bounds.any()) return {};
   const double threshold = state.threshold() - std::log(2.0);  // a second test
   const Eigen::MatrixXd design = state.design();
@@ -83,7 +84,11 @@ std::optional<ScoredCandidate> stated_noise_pass(ModelState& state,
     const Eigen::MatrixXd both = noise::hstack(design, leads[k].columns);
     const std::vector<noise::Fit> fits = fitted_as_stated(state, both);
     weigh_beside(state, design, fits, leads[k]);
-    if (leads[k].log_p < threshold && stands_as_stated(state, both, fits[0])) return leads[k];
+    if (leads[k].log_p >= threshold || !stands_as_stated(state, both, fits[0])) continue;
+    const Candidate& c = leads[k].candidate();
+    if (!is_chance_of_stays(state, c, leads[k].columns, design)) return leads[k];
+    trials.push_back({c.id, c.label_of(leads[k].theta), leads[k].gain, leads[k].log_p, leads[k].log_p, false,
+                      chance_of_stays, true});
   }
   return {};
 }

@@ -24,21 +24,28 @@ class Stays {
  public:
   explicit Stays(const ModelState& state)
       : of_row_(state.problem().layout->stays(state.rows())), readings_(state.rows().count()) {
-    if (!of_row_.empty()) count_ = 1 + *std::max_element(of_row_.begin(), of_row_.end());
+    all_ = readings_.sum();
+    of_row_.resize(static_cast<std::size_t>(readings_.size()), -1);
+    for (std::size_t i = 0; i < of_row_.size(); ++i) {
+      if (of_row_[i] < 0) readings_[static_cast<Index>(i)] = 0;
+      count_ = std::max<Index>(count_, of_row_[i] + 1);
+      if (of_row_[i] >= 0) ++rows_;
+    }
     weight_ = Eigen::VectorXd::Zero(count_);
-    for (std::size_t i = 0; i < of_row_.size(); ++i) weight_[of_row_[i]] += readings_[static_cast<Index>(i)];
+    for_each_row([&](Index row, Index stay) { weight_[stay] += readings_[row]; });
   }
 
   Index count() const { return count_; }
-  // True if readings come in stays, and not one by one.
+  Index rows() const { return rows_; }
+  // True if readings come in stays, and neither one by one nor on the way.
   bool any() const {
-    return count_ > 0 && readings_.sum() >= thresholds::readings_a_stay * static_cast<double>(count_);
+    return count_ > 0 && weight_.sum() >= thresholds::readings_a_stay * static_cast<double>(count_) &&
+           weight_.sum() >= thresholds::share_in_stays * all_;
   }
 
   Eigen::MatrixXd mean(const Eigen::MatrixXd& columns) const {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count_, columns.cols());
-    for (std::size_t i = 0; i < of_row_.size(); ++i)
-      result.row(of_row_[i]) += readings_[static_cast<Index>(i)] * columns.row(static_cast<Index>(i));
+    for_each_row([&](Index row, Index stay) { result.row(stay) += readings_[row] * columns.row(row); });
     return weight_.cwiseInverse().asDiagonal() * result;
   }
 
@@ -46,10 +53,8 @@ class Stays {
   double squares_within(const Eigen::MatrixXd& columns) const {
     const Eigen::MatrixXd means = mean(columns);
     double sum = 0;
-    for (std::size_t i = 0; i < of_row_.size(); ++i) {
-      const auto row = static_cast<Index>(i);
-      sum += readings_[row] * (columns.row(row) - means.row(of_row_[i])).squaredNorm();
-    }
+    for_each_row(
+        [&](Index row, Index stay) { sum += readings_[row] * (columns.row(row) - means.row(stay)).squaredNorm(); });
     return sum;
   }
 
@@ -61,10 +66,22 @@ class Stays {
   }
 
  private:
+  template <class Visit>
+  void for_each_row(const Visit& visit) const {
+    for (std::size_t i = 0; i < of_row_.size(); ++i)
+      if (of_row_[i] >= 0) visit(static_cast<Index>(i), Index{of_row_[i]});
+  }
+
   std::vector<int> of_row_;
-  Eigen::VectorXd readings_, weight_;  // of each row; of each stay
-  Index count_ = 0;
+  Eigen::VectorXd readings_, weight_;  // of each row that lies in a stay, 0 of others; of each stay
+  double all_ = 0;                     // readings, in stays or not
+  Index count_ = 0, rows_ = 0;
 };
+
+// True if there are stays, within which the columns hardly change.
+bool are_between(const Stays& stays, const Eigen::MatrixXd& columns) {
+  return stays.any() && stays.share_within(columns) <= thresholds::within_stays;
+}
 
 struct LeastSquares {
   Index rank = 0;
@@ -83,22 +100,21 @@ StayScatter scatter_of_stays(const ModelState& state, const Eigen::MatrixXd& des
   const Stays stays(state);
   if (!stays.any()) return {};
   const auto [rank, squares] = least_squares(stays.mean(design), stays.mean(state.y()));
-  const Index between = std::max<Index>(stays.count() - rank, 1),
-              within = std::max<Index>(state.rows().size() - stays.count(), 1);
+  const Index between = std::max<Index>(stays.count() - rank, 1), within = stays.rows() - stays.count();
   return {stays.count(), squares / static_cast<double>(between),
-          stays.squares_within(state.y()) / static_cast<double>(within)};
+          within > 0 ? stays.squares_within(state.y()) / static_cast<double>(within)
+                     : state.fit.covariance.reading_variance()};
 }
 
 bool differs_between_stays(const ModelState& state, const Candidate& candidate, const Eigen::MatrixXd& columns) {
-  if (!in_time(candidate)) return false;
-  const Stays stays(state);
-  return stays.any() && stays.share_within(columns) <= thresholds::within_stays;
+  return in_time(candidate) && are_between(Stays(state), columns);
 }
 
 bool is_chance_of_stays(const ModelState& state, const Candidate& candidate, const Eigen::MatrixXd& columns,
                         const Eigen::MatrixXd& design) {
-  if (!differs_between_stays(state, candidate, columns)) return false;
+  if (!in_time(candidate)) return false;
   const Stays stays(state);
+  if (!are_between(stays, columns)) return false;
   const Eigen::VectorXd y = stays.mean(state.y());
   const auto [rank, squares] = least_squares(stays.mean(design), y);
   const auto [more, left] = least_squares(stays.mean(noise::hstack(design, columns)), y);

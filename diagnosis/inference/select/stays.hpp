@@ -6,6 +6,9 @@
 
 namespace muster::inference {
 
+// Why what happens in time is no finding, for the report.
+inline constexpr const char* chance_of_stays = "is not beyond how stays differ by chance";
+
 // How the means of stays scatter about a design, and readings about the means; squared units of the readings.
 struct StayScatter {
   Index stays = 0;

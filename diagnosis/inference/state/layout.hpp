@@ -31,7 +31,8 @@ class Layout {
   }
   // Parts of the time span that cross-validation may leave out, one a row, numbered from 0; empty without time.
   virtual std::vector<int> parts_of_time(const noise::Rows& /*rows*/) const { return {}; }
-  // Stays, one a row, numbered from 0: readings of one stream at one site without a pause. Empty without time.
+  // Stays, one a row, numbered from 0: readings of one stream at one site without a pause. -1: of rows of several
+  // sites, and of differences. Empty without time.
   virtual std::vector<int> stays(const noise::Rows& /*rows*/) const { return {}; }
   // False where sites are not places, so that the place of a gain has no meaning.
   virtual bool sites_known() const { return true; }

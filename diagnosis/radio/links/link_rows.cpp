@@ -197,29 +197,49 @@ std::vector<int> LinkLayout::parts_of_time(const noise::Rows& rows) const {
   return result;
 }
 
+namespace {
+
+// The number of each row whose readings have one, from 0; -1 of others, and of differences.
+std::vector<int> of_whole_rows(const noise::Rows& rows, const std::vector<int>& of_reading) {
+  constexpr int none = -1;
+  std::map<int, int> number;
+  std::vector<int> result(static_cast<std::size_t>(rows.size()), none);
+  for (Index row = 0; row < rows.means(); ++row)
+    result[static_cast<std::size_t>(row)] = of_reading[static_cast<std::size_t>(rows.example(row))];
+  for (const Index reading : rows.in_order()) {
+    int& of_row = result[static_cast<std::size_t>(rows.row_of()[static_cast<std::size_t>(reading)])];
+    if (of_row != of_reading[static_cast<std::size_t>(reading)]) of_row = none;
+  }
+  for (int& of_row : result)
+    if (of_row != none) of_row = number.try_emplace(of_row, static_cast<int>(number.size())).first->second;
+  return result;
+}
+
+}  // namespace
+
 std::vector<int> LinkLayout::stays(const noise::Rows& rows) const {
   if (readings_.t.empty()) return {};
-  std::map<std::pair<bool, LinkSite>, std::vector<std::pair<double, Index>>> at;  // of means, and of differences
-  for (Index row = 0; row < rows.size(); ++row) {
-    const Index reading = rows.example(row);
-    at[{rows.is_difference(row), site_of(readings_, reading)}].emplace_back(
-        readings_.t[static_cast<std::size_t>(reading)], row);
-  }
+  std::map<LinkSite, std::vector<std::pair<double, Index>>> at;  // times and readings
+  for (const Index reading : rows.in_order())
+    at[site_of(readings_, reading)].emplace_back(readings_.t[static_cast<std::size_t>(reading)], reading);
   std::vector<double> steps;
   for (auto& [site, visits] : at) {
     std::sort(visits.begin(), visits.end());
-    for (std::size_t k = 1; k < visits.size(); ++k) steps.push_back(visits[k].first - visits[k - 1].first);
+    for (std::size_t k = 1; k < visits.size(); ++k) {
+      const double step = visits[k].first - visits[k - 1].first;
+      if (step > 0) steps.push_back(step);  // a clock of whole seconds gives several readings one time
+    }
   }
   const double pause = steps.empty() ? 0 : thresholds::pause_between_stays * median(std::move(steps));
-  std::vector<int> result(static_cast<std::size_t>(rows.size()));
+  std::vector<int> of_reading(readings_.t.size());
   int stay = -1;
   for (const auto& [site, visits] : at) {
     for (std::size_t k = 0; k < visits.size(); ++k) {
       if (k == 0 || visits[k].first - visits[k - 1].first > pause) ++stay;
-      result[static_cast<std::size_t>(visits[k].second)] = stay;
+      of_reading[static_cast<std::size_t>(visits[k].second)] = stay;
     }
   }
-  return result;
+  return of_whole_rows(rows, of_reading);
 }
 
 std::vector<inference::Grouping> LinkLayout::groupings(const noise::Rows& rows, const noise::Sites& sites) const {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -75,12 +76,12 @@ TEST(Stays, AStepBetweenSessionsIsKnownToThePause) {
   const Diagnosis found = found_in({0.5, -20});
   ASSERT_FALSE(found.causes.empty());
   EXPECT_EQ(found.causes[0].id, "effect.step");
-  for (const CauseValue& v : found.causes[0].values) {
-    if (v.name != "at") continue;
-    EXPECT_GE(v.lower95, begin_of(places - 1) + 30);
-    EXPECT_LE(v.upper95, begin_of(places) + 5);
-    EXPECT_GT(v.upper95 - v.lower95, session / 2);
-  }
+  const std::vector<CauseValue>& values = found.causes[0].values;
+  const auto at = std::find_if(values.begin(), values.end(), [](const CauseValue& v) { return v.name == "at"; });
+  ASSERT_NE(at, values.end());
+  EXPECT_GE(at->lower95, begin_of(places - 1) + 30);
+  EXPECT_LE(at->upper95, begin_of(places) + 5);
+  EXPECT_GT(at->upper95 - at->lower95, session / 2);
 }
 
 }  // namespace

@@ -292,6 +292,37 @@ TEST(Stays, EndAtAPause) {
   EXPECT_EQ(stays_of(), 3u);
   for (std::size_t k = 0; k < visits.size(); ++k) visits[k] = {3600.0 * static_cast<double>(k), 3};
   EXPECT_EQ(stays_of(), 1u);
+  // Several readings a second, by a clock of whole seconds.
+  for (std::size_t k = 0; k < visits.size(); ++k) visits[k] = {std::floor(static_cast<double>(k) / 8), 3};
+  EXPECT_EQ(stays_of(), 1u);
+}
+
+// Of readings on the way several are a row, of one place none: they are in no stay. Both ways of a link at one moment
+// are in one, and their differences in none.
+TEST(Stays, AreNotWhatARobotDrives) {
+  constexpr Index size = 240;
+  LinkReadings r;
+  r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
+  for (Index i = 0; i < size; ++i) {
+    const bool second = i % 2 == 1;
+    r.tx.push_back(second ? 1 : 0);
+    r.rx.push_back(second ? 0 : 1);
+    r.t.push_back(0.05 * static_cast<double>(i / 2));
+    r.twin.push_back(second ? i - 1 : i + 1);
+    (second ? r.tx_at : r.rx_at)(0, i) = i < size / 2 ? 3 : 3 + 0.1 * static_cast<double>(i - size / 2);
+  }
+  const LinkLayout layout(r, {});
+  const noise::Rows rows = layout.rows();
+  const std::vector<int> stays = layout.stays(rows);
+  ASSERT_GT(rows.size(), rows.means());
+  double standing = 0;
+  for (Index row = 0; row < rows.size(); ++row) {
+    const int stay = stays[static_cast<std::size_t>(row)];
+    EXPECT_TRUE(stay == 0 || stay == -1) << stay;
+    if (stay == 0) standing += rows.count()[row];
+    EXPECT_EQ(stay, row < rows.means() && rows.last(row) < size / 2 ? 0 : -1) << row;
+  }
+  EXPECT_GT(standing, 5);
 }
 
 }  // namespace
