@@ -5,6 +5,7 @@
 #include <map>
 #include <muster/tables.hpp>
 #include <set>
+#include <utility>
 
 #include "text/names.hpp"
 #include "text/number.hpp"
@@ -30,24 +31,27 @@ Plan plan_of(const LinkModel& model) {
   return plan;
 }
 
-// Throws Error if at least 10 % of ends lie outside the walls' bounding box, but at most 1 % with x and y exchanged. Of
-// ends as the data have them: a cause of the world may turn them out of the plan.
+// Throws Error if at least 10 % of places lie outside the walls' bounding box, but at most 1 % with x and y exchanged.
+// Of places as the data have them: a cause of the world may turn them out of the plan. A few, such as a node of a
+// network that stands outdoors, tell nothing.
 void check_plan(const LinkModel& model, const Dataset& data) {
   const Plan plan = plan_of(model);
   if (plan.x1 <= plan.x0 || plan.y1 <= plan.y0) return;
-  const double margin = 1;  // m
-  double outside = 0, turned_outside = 0;
+  const double margin = 1;        // m
+  constexpr std::size_t few = 5;  // places, each of a square metre
+  std::set<std::pair<long, long>> all, outside, turned_outside;
   std::size_t first = data.rows();
   for (std::size_t row = 0; row < data.rows(); ++row) {
     for (const auto& [x, y, z] : {data.tx_at[row], data.rx_at[row]}) {
-      const bool out = !plan.holds(x, y, margin);
-      outside += out;
-      turned_outside += !plan.holds(y, x, margin);
-      if (out) first = std::min(first, row);
+      const std::pair place(std::lround(x), std::lround(y));
+      all.insert(place);
+      if (!plan.holds(y, x, margin)) turned_outside.insert(place);
+      if (plan.holds(x, y, margin)) continue;
+      outside.insert(place);
+      first = std::min(first, row);
     }
   }
-  const double ends = 2 * static_cast<double>(data.rows());
-  if (outside < 0.1 * ends || turned_outside > 0.01 * ends) return;
+  if (outside.size() < few || 10 * outside.size() < all.size() || 100 * turned_outside.size() > all.size()) return;
   throw invalid(data.table->place(first, 0),
                 "row " + std::to_string(first + 1) +
                     " and others lie outside of the world's walls, and inside if x and y change "

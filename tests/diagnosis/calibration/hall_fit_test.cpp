@@ -177,6 +177,15 @@ TEST(Hall, TooFewReadingsForTheParameters) {
             "d.csv: the table has 2 heard readings; expected at least 4 to fit 3 parameters");
 }
 
+// Half of the ends are outdoors, and would be inside with their axes exchanged: one place tells nothing.
+TEST(Hall, ANodeOutdoorsHasNoExchangedAxes) {
+  const Scratch scratch;
+  std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(i) + ",base,r,0,0,1,12,-" + std::to_string(50 + i) + '\n';
+  const auto file = scratch.write("d.csv", text);
+  EXPECT_NO_THROW(check_places(LinkModel(hall, file, plugins), read_dataset(file)));
+}
+
 TEST(Hall, ExchangedAxesAreNamed) {
   const Scratch scratch;
   std::string text = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
