@@ -91,6 +91,9 @@ inline constexpr double half_field_share = 0.4;
 
 // readings; that carry half of a gain, fewer than which may be outliers; chosen; Search.NoFalseWallForAnOutlier
 inline constexpr double few_readings = 5;
+// rows; that win most, without which a cause must still win: an outlier is in its neighbours' whitened rows, too;
+// chosen; Search.NoFalseWallForAnOutlier
+inline constexpr std::size_t rows_of_an_outlier = 10;
 // standard errors; at which residuals are clipped for the test of outliers; chosen; Search.NoFalseWallForAnOutlier
 inline constexpr double usual_errors = 4;
 // share; of a gain left by clipped residuals, below which it is that of outliers; chosen; none

@@ -38,11 +38,16 @@ double share_of_others(const ModelState& state, const Eigen::VectorXd& won) {
   return 1 - most / won.sum();
 }
 
-// True if fewer than five readings carry half of the gain.
-bool from_few(const ModelState& state, const Eigen::VectorXd& won) {
+// Rows, the one that won most first.
+std::vector<Index> by_gain(const Eigen::VectorXd& won) {
   std::vector<Index> rows(static_cast<std::size_t>(won.size()));
   std::iota(rows.begin(), rows.end(), 0);
   std::sort(rows.begin(), rows.end(), [&](Index a, Index b) { return won[a] > won[b]; });
+  return rows;
+}
+
+// True if fewer than five readings carry half of the gain. `rows`: by gain.
+bool from_few(const ModelState& state, const Eigen::VectorXd& won, const std::vector<Index>& rows) {
   double sum = 0, readings = 0;
   for (const Index row : rows) {
     if (sum >= won.sum() / 2) break;
@@ -66,13 +71,27 @@ GainByRow gain_by_row(const WhitenedModel& model, const Eigen::MatrixXd& columns
   return {r.array().square() - left.array().square(), (added.q.transpose() * tame).squaredNorm() / along.squaredNorm()};
 }
 
+// Gain without these rows.
+double gain_without(const ModelState& state, const WhitenedModel& model, const noise::Covariance& covariance,
+                    const Eigen::MatrixXd& columns, const std::vector<Index>& rows) {
+  Eigen::MatrixXd left_out = Eigen::MatrixXd::Zero(state.rows().size(), static_cast<Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) left_out(rows[k], static_cast<Index>(k)) = 1;
+  return state.whitened_model(noise::hstack(model.design, left_out), covariance).gain(columns);
+}
+
 // True for an outlier fitted by a place. Few readings carry the gain, and clipped residuals leave less than half of
-// it, or no more than chance.
-bool of_outlier(const ModelState& state, const Candidate& c, const GainByRow& gains_by_row) {
-  if (!from_few(state, gains_by_row.won)) return false;
-  const double left = gains_by_row.tame_share * gains_by_row.won.sum();
-  return gains_by_row.tame_share < thresholds::tame_share ||
-         state.log_p(c, left, c.design.width, true) > state.threshold();
+// it, or no more than chance; nor do those that carry less, to which an outlier leaks as their neighbour.
+bool of_outlier(const ModelState& state, const ScoredCandidate& lead, const WhitenedModel& model,
+                const noise::Covariance& covariance, const GainByRow& gains_by_row) {
+  std::vector<Index> rows = by_gain(gains_by_row.won);
+  if (!from_few(state, gains_by_row.won, rows)) return false;
+  const auto is_chance = [&](double gain) {
+    return state.log_p(lead.candidate(), gain, lead.columns.cols(), true) > state.threshold();
+  };
+  if (gains_by_row.tame_share >= thresholds::tame_share && !is_chance(gains_by_row.tame_share * gains_by_row.won.sum()))
+    return false;
+  rows.resize(std::min(rows.size(), thresholds::rows_of_an_outlier));
+  return is_chance(gain_without(state, model, covariance, lead.columns, rows));
 }
 
 // Fits the noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be a
@@ -175,7 +194,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   else if (trial.marginal_log_p > state.threshold())
     trial.reason = trial.log_p > state.threshold() ? "not beyond chance"
                                                    : "not beyond chance under another noise that fits as well";
-  else if (of_outlier(state, c, gains_by_row))
+  else if (of_outlier(state, lead, model, fit.covariance, gains_by_row))
     trial.reason = "rests on fewer than five readings";
   else if (c.kind == Kind::named && fits_each_site(state, lead))
     trial.reason = "has more numbers than the sites of the network leave";

@@ -88,7 +88,8 @@ double WhitenedModel::skew_charge(const Eigen::MatrixXd& columns) const {
       cubes += scatter[i] * scatter[i] * scatter[i];
       weights += effect[i] * effect[i] * effect[i];
     }
-    if (squares > 0) third += cubes / count / std::pow(squares / count, 1.5) * weights;
+    // What scatters less than the noise counts as it is: a few of many exact zeros are as skewed as can be.
+    if (squares > 0) third += cubes / count / std::pow(std::max(1.0, squares / count), 1.5) * weights;
   }
   const double energy = effect.square().sum();
   return inference::skew_charge(std::sqrt(energy), third / std::pow(energy, 1.5));
