@@ -60,7 +60,7 @@ VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) 
 
 OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup) : s_(setup), moved_(setup.model) {
   const ObservedLevels levels = observed_levels(s_.data, s_.receiver, s_.fitted.readings, s_.used.rows);
-  std::vector<Index> known, of_used;
+  std::vector<Index> known;
   for (std::size_t i = 0; i < s_.used.rows.size(); ++i) {
     if (levels.bounds.known.empty() || levels.bounds.known[i] == noise::Known::value)
       known.push_back(static_cast<Index>(i));
@@ -68,9 +68,9 @@ OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup) : s_(setup), moved_(setup.mode
   const std::size_t every = std::max<std::size_t>(1, known.size() / thresholds::own_world_readings);
   for (std::size_t i = 0; i < known.size(); i += every) {
     kept_.push_back(s_.used.rows[static_cast<std::size_t>(known[i])]);
-    of_used.push_back(known[i]);
+    of_used_.push_back(known[i]);
   }
-  y_ = levels.measured(of_used);
+  y_ = levels.measured(of_used_);
   // What each radio sends, or each hears where one sends.
   const bool of_senders = s_.data.tx.levels.size() > 1;
   for (const Index row : kept_)
@@ -159,7 +159,27 @@ LinkReadings OwnWorldFits::readings_of(const OwnWorld& world) const {
     r.rx_at.col(i) << rx.x, rx.y, rx.z;
     if (!s_.data.t.empty()) r.t.push_back(s_.data.t[static_cast<std::size_t>(kept_[static_cast<std::size_t>(i)])]);
   }
+  r.twin = twins_in(world);
+  r.twin_variance = s_.layout->readings().twin_variance;
   return r;
+}
+
+// The other direction's reading of each, where they are the two directions of one link in this world, too; empty:
+// directions scatter apart.
+std::vector<Index> OwnWorldFits::twins_in(const OwnWorld& world) const {
+  const std::vector<Index>& twin = s_.layout->readings().twin;
+  if (twin.empty()) return {};
+  std::map<Index, Index> kept;  // by the number among the search's
+  for (std::size_t i = 0; i < of_used_.size(); ++i) kept[of_used_[i]] = static_cast<Index>(i);
+  std::vector<Index> result(of_used_.size(), -1);
+  for (std::size_t i = 0; i < of_used_.size(); ++i) {
+    const auto other = kept.find(twin[static_cast<std::size_t>(of_used_[i])]);
+    if (other == kept.end()) continue;
+    const auto& [tx, rx] = world.ends[i];
+    const auto& [back_tx, back_rx] = world.ends[static_cast<std::size_t>(other->second)];
+    if (tx.radio == back_rx.radio && rx.radio == back_tx.radio) result[i] = other->second;
+  }
+  return result;
 }
 
 // Single readings are rows: what is averaged in one world is of several links in another.

@@ -65,11 +65,12 @@ class OwnWorldFits {
   OwnWorld with_ends(OwnWorld world) const;
   InPlan moved_to_best(Supposed& supposed, const InPlan& start);
   LinkReadings readings_of(const OwnWorld& world) const;
+  std::vector<Eigen::Index> twins_in(const OwnWorld& world) const;
   const RowsOfWorld& rows_of(const OwnWorld& world) const;
 
   DiagnosisSetup& s_;
   ParameterGuard moved_;
-  std::vector<Eigen::Index> kept_;
+  std::vector<Eigen::Index> kept_, of_used_;  // rows of the table; the same among those of the search
   std::vector<std::size_t> radio_;
   std::set<std::size_t> radios_;
   Eigen::VectorXd y_;

@@ -44,13 +44,13 @@ std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> 
 }
 
 // Twins among what was measured as a value: bounds have no difference.
-LinkReadings with_twins(LinkReadings readings, const ObservedLevels& levels) {
+LinkReadings with_twins(LinkReadings readings, const ObservedLevels& levels, double step) {
   VectorXd residual =
       levels.measured - Eigen::Map<const VectorXd>(readings.level.data(), static_cast<Index>(readings.level.size()));
   for (std::size_t i = 0; i < levels.bounds.known.size(); ++i) {
     if (levels.bounds.known[i] != noise::Known::value) residual[static_cast<Index>(i)] = std::nan("");
   }
-  find_twins(readings, residual);
+  find_twins(readings, residual, step);
   return readings;
 }
 
@@ -137,7 +137,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       observed(observed_columns(data, used.rows)),
       layout(std::make_shared<const LinkLayout>(
           layout_of(with_twins(observed_readings(data, model, used.rows, base.mean),
-                               observed_levels(data, receiver, fitted.readings, used.rows)),
+                               observed_levels(data, receiver, fitted.readings, used.rows), receiver.step),
                     observed, data.has_places(), model))),
       rows(layout->rows()),
       sketched(sketched_readings({world, table, plugins, model, base, used.rows, layout, rows})),

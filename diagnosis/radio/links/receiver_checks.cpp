@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "diagnosis/data/thresholds.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -23,6 +24,27 @@ Codes codes_of(const Dataset& data) {
     if (!std::isnan(v)) ++codes[v];
   }
   return codes;
+}
+
+// Moments at each level: of a link that is the same both ways, what stands in both rows of one moment is one.
+Codes moments_of(const Dataset& data) {
+  if (data.t.empty()) return codes_of(data);
+  const auto& senders = data.tx.levels;
+  std::vector<std::size_t> number;  // of each receiver, that of the sender of its name if there is one
+  for (const std::string& name : data.rx.levels) {
+    const auto at = static_cast<std::size_t>(std::find(senders.begin(), senders.end(), name) - senders.begin());
+    number.push_back(at < senders.size() ? at : senders.size() + number.size());
+  }
+  Codes moments;
+  std::set<std::tuple<std::size_t, std::size_t, double, double>> known;  // sender, receiver, time and level
+  for (std::size_t row = 0; row < data.rows(); ++row) {
+    const double level = data.rssi[row], t = data.t[row];
+    if (std::isnan(level)) continue;
+    const std::size_t tx = data.tx.level[row], rx = number[data.rx.level[row]];
+    if (!known.count({rx, tx, t, level})) ++moments[level];
+    known.insert({tx, rx, t, level});
+  }
+  return moments;
 }
 
 // Step of the grid of all levels: their least difference; 0 if there is no grid.
@@ -80,8 +102,8 @@ bool of_one_link(const Dataset& data, double level) {
   return all.size() >= thresholds::many_links || extent_at_level(data, level) < thresholds::one_place;
 }
 
-// Binomial test for a pile at the last code: a density that falls towards its end has no more readings there than at
-// the codes before. `before`: readings at these, nearest first.
+// Binomial test for a pile at the last code: a density that falls towards its end has no more moments there than at
+// the codes before. `before`: moments at these, nearest first.
 std::optional<Clip> pile(const Dataset& data, double level, std::size_t count, const std::vector<std::size_t>& before) {
   if (count < thresholds::fewest_piled || count <= thresholds::piled_times * before[0]) return {};
   if (of_one_link(data, level)) return {};
@@ -101,7 +123,7 @@ ReceiverCheck pile_check(const std::string& end, const std::optional<Clip>& clip
   ReceiverCheck check{"readings that pile up at the " + end + " level", "", !clip, {}};
   check.found = fmt::format("{} at {:.6g} dBm", count, level);
   if (!clip) return check;
-  check.found += ", " + std::to_string(clip->beside) + " beside it: clipped";
+  check.found = fmt::format("{} at {:.6g} dBm, {} beside it: clipped", clip->count, level, clip->beside);
   check.row = clip->row + 1;
   return check;
 }
@@ -163,18 +185,18 @@ ReceiverCheck unit_check(const Dataset& data, const std::string& none) {
 
 ReceiverChecks receiver_checks(const Dataset& data) {
   ReceiverChecks result;
-  const Codes codes = codes_of(data);
+  const Codes codes = codes_of(data), moments = moments_of(data);
   result.step = step_of(codes, data.heard());
   const auto low = codes.begin(), high = std::prev(codes.end());
   const auto before = [&](double level, double inward, double next) -> std::vector<std::size_t> {
-    if (result.step <= 0) return {at(codes, next)};
+    if (result.step <= 0) return {at(moments, next)};
     std::vector<std::size_t> counts;
-    for (const int steps : {1, 2, 3}) counts.push_back(at(codes, level + inward * steps * result.step));
+    for (const int steps : {1, 2, 3}) counts.push_back(at(moments, level + inward * steps * result.step));
     return counts;
   };
   if (codes.size() > 2) {
-    result.top = pile(data, high->first, high->second, before(high->first, -1, std::prev(high)->first));
-    result.bottom = pile(data, low->first, low->second, before(low->first, 1, std::next(low)->first));
+    result.top = pile(data, high->first, at(moments, high->first), before(high->first, -1, std::prev(high)->first));
+    result.bottom = pile(data, low->first, at(moments, low->first), before(low->first, 1, std::next(low)->first));
   }
   result.checks.push_back(
       {"the step between readings", step_in_words(result.step, codes.size(), data.heard()), true, {}});

@@ -12,7 +12,7 @@ namespace muster::diagnosis {
 // Readings piled up at the highest or lowest code, to which levels beyond it are clipped.
 struct Clip {
   double level = 0;                   // dBm
-  std::size_t count = 0, beside = 0;  // readings there, and at the next code inside
+  std::size_t count = 0, beside = 0;  // moments with it, and with the next code inside
   double log_p = 0;                   // of such a pile from an unclipped receiver
   std::size_t row = 0;                // of the table, from 0: the first one there
 };

@@ -65,7 +65,7 @@ bool share_scatter(const Steps& differences, const Steps& means) {
 
 }  // namespace
 
-void find_twins(LinkReadings& r, const Eigen::VectorXd& residual) {
+void find_twins(LinkReadings& r, const Eigen::VectorXd& residual, double step) {
   r.twin.clear();
   if (r.t.empty()) return;
   std::map<std::pair<int, int>, BothWays> links;
@@ -97,7 +97,9 @@ void find_twins(LinkReadings& r, const Eigen::VectorXd& residual) {
   }
   if (of_means.count() < thresholds::fewest_twins || !share_scatter(of_differences, of_means)) return;
   r.twin = std::move(twin);
-  r.twin_variance = std::max(of_differences.variance(), std::pow(thresholds::least_difference, 2));
+  // Directions that are alike are rounded alike, and each for itself where one of them is a little off.
+  const double rounded = step * step / 24;
+  r.twin_variance = std::max({of_differences.variance(), rounded, std::pow(thresholds::least_difference, 2)});
 }
 
 }  // namespace muster::diagnosis

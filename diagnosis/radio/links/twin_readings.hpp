@@ -7,7 +7,8 @@
 namespace muster::diagnosis {
 
 // Sets `twin` and `twin_variance` where the scatter of twins is shared: half their difference varies less from one
-// moment to the next than their mean does. `residual`: dB, one a reading; not finite where nothing was heard.
-void find_twins(LinkReadings& readings, const Eigen::VectorXd& residual);
+// moment to the next than their mean does. `residual`: dB, one a reading; not finite where nothing was heard. `step`:
+// dB, between the levels that are recorded; 0: all are.
+void find_twins(LinkReadings& readings, const Eigen::VectorXd& residual, double step = 0);
 
 }  // namespace muster::diagnosis
