@@ -24,6 +24,19 @@ bool names(const Diagnosis& found, const CauseEstimate& cause) {
   });
 }
 
+// True if errors at left-out places are larger beyond chance than beside all that was found in the given world, or by
+// far. Four radios that are moved one by one may come nearer to a field than the plan that is shifted.
+bool is_worse(const Diagnosis& out, const Diagnosis& found) {
+  if (!found.unseen || !out.unseen) return false;
+  const VectorXd &now = out.unseen->after, &before = found.unseen->after;
+  const double ratio = now.mean() / before.mean();
+  if (ratio <= thresholds::own_world_worse) return false;
+  if (ratio > thresholds::own_world_far_worse || now.size() != before.size()) return true;
+  inference::Unseen both = *out.unseen;
+  both.before = before;
+  return inference::compared(both).upper95 < 0;
+}
+
 struct Diagnosed {
   std::filesystem::path world, data;
   Library::SearchPath plugins;
@@ -42,9 +55,7 @@ struct Diagnosed {
     Diagnosis out =
         Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {{}, end})
             .run(&first, by_itself);
-    if (found.unseen && out.unseen &&
-        out.unseen->after.mean() > thresholds::own_world_worse * found.unseen->after.mean())
-      return {};
+    if (is_worse(out, found)) return {};
     keep_notes_of_given(world, found, folder.path(), out);
     return out;
   }

@@ -265,6 +265,11 @@ inline constexpr double near_clip = 2;
 inline constexpr Eigen::Index fewest_law_readings = 300;
 // nats; by which another law may be behind and is an alternative; chosen; none
 inline constexpr double open_law_nats = 3;
+// draws; of a world without a law of readings, which are asked for a law that was found; chosen;
+// SimulatedDraws.ExactReadingsHaveNoOutliersOfTheirOwn
+inline constexpr uint64_t law_draws = 19;
+// factor; by which the evidence of a law must exceed that in each of these; chosen; none
+inline constexpr double beyond_drawn = 1.5;
 // draws; of the world, over which a fitted field scatters; chosen; none
 inline constexpr int field_draws = 12;
 // probability; of the fitted field among those of the world's draws, below which it is another; chosen; none
@@ -465,8 +470,10 @@ inline constexpr double own_world_beyond_found = 3;
 // nats; by which a hypothesis must be likelier than the world as it is; chosen; OwnWorld.CleanReadingsAreSilent
 inline constexpr double own_world_nats = 8;
 // factor; error at left-out places, over that beside all that was found in the world as it is, from which a hypothesis
-// is not named; chosen; none
+// is not named if that is beyond chance; chosen; none
 inline constexpr double own_world_worse = 1.02;
+// factor; the same, from which it is not named; chosen; none
+inline constexpr double own_world_far_worse = 1.2;
 // nats; within which another hypothesis is an alternative; chosen; none
 inline constexpr double own_world_open = 3;
 // factor; variance of a radio's readings about their level with two identities exchanged, over that beside all that was
