@@ -10,13 +10,18 @@
 namespace muster::diagnosis {
 namespace {
 
-// `at_top` readings at -40 dBm, five at -41, `before` at -42 and -43, and 10 at each level down to -60.
-Dataset readings(const Scratch& scratch, int at_top, int before = 10) {
+// `at_top` readings at -40 dBm, five at -41, `before` at -42 and -43, and 10 at each level down to -60. `both_ways`:
+// each is measured in the other direction, too.
+Dataset readings(const Scratch& scratch, int at_top, int before = 10, bool both_ways = false) {
   std::string text = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\n";
   int row = 0;
   const auto add = [&](int level, int count) {
-    for (int k = 0; k < count; ++k, ++row)
-      text += std::to_string(row) + ",a,b,0,0," + std::to_string(row % 9 + 1) + ",2," + std::to_string(level) + "\n";
+    for (int k = 0; k < count; ++k, ++row) {
+      const std::string t = std::to_string(row), x = std::to_string(row % 9 + 1),
+                        end = ',' + std::to_string(level) + '\n';
+      text += t + ",a,b,0,0," + x + ",2" + end;
+      if (both_ways) text += t + ",b,a," + x + ",2,0,0" + end;
+    }
   };
   for (int level = -60; level < -41; ++level) add(level, level < -43 ? 10 : before);
   add(-41, 5);
@@ -35,6 +40,15 @@ TEST(ReceiverChecks, ReadingsThatPileUpAreAClip) {
   EXPECT_EQ(found.top->row, 195u);
   EXPECT_LT(found.top->log_p, std::log(1e-6));
   EXPECT_FALSE(found.bottom);  // 10 at the lowest level, 10 beside it
+}
+
+// 26 moments are no pile, and neither are their 52 readings.
+TEST(ReceiverChecks, BothDirectionsOfAMomentAreOneOfAPile) {
+  const Scratch scratch;
+  EXPECT_FALSE(receiver_checks(readings(scratch, 26, 10, true)).top);
+  const ReceiverChecks found = receiver_checks(readings(scratch, 40, 10, true));
+  ASSERT_TRUE(found.top);
+  EXPECT_EQ(found.top->count, 40u);
 }
 
 // A mesh whose strongest link hardly changes: as many readings at the highest level, all of one link.

@@ -55,6 +55,16 @@ TEST(TwinReadings, AreTheTwoDirectionsOfAMoment) {
   EXPECT_NEAR(r.twin_variance, 0.5 * 0.5 / 2, 0.04);
 }
 
+// Rounded to whole decibels directions are alike, until one of them is a little off: half of two roundings, each of a
+// twelfth.
+TEST(TwinReadings, AreRoundedEachForItself) {
+  LinkReadings r = both_ways(60);
+  const VectorXd alike = scattered(r.size(), 3, 0).array().round();
+  find_twins(r, alike, 1);
+  ASSERT_FALSE(r.twin.empty());
+  EXPECT_NEAR(r.twin_variance, 1.0 / 24, 1e-12);
+}
+
 // A few readings of one direction that are far off hide nothing of what the rest share.
 TEST(TwinReadings, AreTwinsBesideOutliers) {
   LinkReadings r = both_ways(200);
