@@ -284,7 +284,7 @@ inline constexpr double borne_out_share = 0.5;
 // Stays.DecideWhatHappensBetweenThem
 inline constexpr double readings_a_stay = 5;
 // share; of the readings that lie in stays, below which how stays differ decides nothing; chosen;
-// Stays.AreNotWhatARobotDrives
+// Stays.AreNotOnTheWay
 inline constexpr double share_in_stays = 0.9;
 // share; of the variance of columns in time within stays, up to which they differ between stays alone; chosen; none
 inline constexpr double within_stays = 0.3;

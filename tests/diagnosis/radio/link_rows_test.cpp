@@ -299,7 +299,7 @@ TEST(Stays, EndAtAPause) {
 
 // Of readings on the way several are a row, of one place none: they are in no stay. Both ways of a link at one moment
 // are in one, and their differences in none.
-TEST(Stays, AreNotWhatARobotDrives) {
+TEST(Stays, AreNotOnTheWay) {
   constexpr Index size = 240;
   LinkReadings r;
   r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
