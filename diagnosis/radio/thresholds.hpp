@@ -95,8 +95,8 @@ inline constexpr int runs_for_a_field = 3;
 // share; of the field found that these may have for it to be the world's own; chosen;
 // SimulatedDraws.MultipathOfTheWorldIsNoUnstatedField
 inline constexpr double drawn_field_share = 0.6;
-// runs; of the world, whose scatter is compared with that of readings; chosen; none
-inline constexpr int runs_of_scatter = 20;
+// runs; of the world, whose scatter is compared with that of readings, until one is like it; chosen; none
+inline constexpr int runs_of_scatter = 60;
 // factor; beyond the range of these runs, from which readings scatter otherwise; chosen;
 // OwnDraws.ScatterAsTheWorldSays
 inline constexpr double other_scatter = 1.2;
@@ -270,6 +270,9 @@ inline constexpr double open_law_nats = 3;
 inline constexpr uint64_t law_draws = 19;
 // factor; by which the evidence of a law must exceed that in each of these; chosen; none
 inline constexpr double beyond_drawn = 1.5;
+// dB; standard deviation of single readings, up to which they are as exact as such draws; chosen;
+// Survey.ReadingsThatAreOffInRunsAreNoOutliers
+inline constexpr double exact_readings = 0.3;
 // draws; of the world, over which a fitted field scatters; chosen; none
 inline constexpr int field_draws = 12;
 // probability; of the fitted field among those of the world's draws, below which it is another; chosen; none
