@@ -54,10 +54,10 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     found.notes.push_back("single readings scatter as normal noise does, of which the world states none");
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
   if (!stated.base.law && replaces(s, best->cause)) return best->law;  // it contradicts nothing
-  // Noise that the world does not state hides how its field bends.
-  const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter &&
-                        std::sqrt(s.state.fit.covariance.reading_variance()) < thresholds::exact_readings;
-  if (is_exact && scatters_by_itself(s, stated, residual, *best, found)) {
+  // Many readings that are off are no sharp bends of a field.
+  const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter;
+  if (is_exact && (best->won.array() > thresholds::needs_law).count() <= thresholds::few_in_need &&
+      scatters_by_itself(s, stated, residual, *best, found)) {
     found.notes.push_back("some readings are off as by " + best->cause +
                           ", as some are that the world itself draws: it is not named");
     return likeliest;
