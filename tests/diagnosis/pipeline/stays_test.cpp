@@ -23,7 +23,10 @@ struct Hidden {
   double of_stay = 0, step = 0;  // dB
 };
 
-double begin_of(int stay) { return session * (stay / places) + 700 * (stay % places); }
+double begin_of(int stay) {
+  const int sessions = stay / places;
+  return session * sessions + 700 * (stay % places);
+}
 
 std::filesystem::path log_of(const Scratch& scratch, const Hidden& hidden) {
   constexpr int readings = 70;
@@ -34,7 +37,8 @@ std::filesystem::path log_of(const Scratch& scratch, const Hidden& hidden) {
     const double distance = 2 + 1.7 * (stay % places),
                  level = hidden.of_stay * random.normal(static_cast<uint64_t>(stay), 1);
     for (int k = 0; k < readings; ++k) {
-      const double noise = 3 * random.normal(static_cast<uint64_t>(readings * stay + k), 2);
+      const int number = readings * stay + k;
+      const double noise = 3 * random.normal(static_cast<uint64_t>(number), 2);
       out << fmt::format("{:.2f},beacon,phone,0,0,{:.2f},0,{:.0f}\n", begin_of(stay) + 0.5 * k, distance,
                          -45 - 20 * std::log10(distance) + level + (stay < places ? 0 : hidden.step) + noise);
     }

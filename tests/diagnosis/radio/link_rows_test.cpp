@@ -190,7 +190,10 @@ TEST(LinkRowLimits, KeepReadingsWithoutATimeApart) {
     r.tx.assign(static_cast<std::size_t>(readings), 0);
     r.rx.assign(static_cast<std::size_t>(readings), 1);
     r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, readings);
-    for (Index k = 0; k < readings; ++k) r.rx_at(0, k) = 5 + 10 * static_cast<double>(k / 20);
+    for (Index k = 0; k < readings; ++k) {
+      const Index place = k / 20;
+      r.rx_at(0, k) = 5 + 10 * static_cast<double>(place);
+    }
     // Of 20,000 readings rows of 8, 8 and 4: rows of 4 would be more than 4,000.
     EXPECT_EQ(link_rows(r, limits_for(r)).size(), places == 30 ? readings : 3 * places) << places;
   }
@@ -300,16 +303,17 @@ TEST(Stays, EndAtAPause) {
 // Of readings on the way several are a row, of one place none: they are in no stay. Both ways of a link at one moment
 // are in one, and their differences in none.
 TEST(Stays, AreNotOnTheWay) {
-  constexpr Index size = 240;
+  constexpr Index size = 240, standing_until = size / 2;
   LinkReadings r;
   r.tx_at = r.rx_at = Eigen::Matrix3Xd::Zero(3, size);
   for (Index i = 0; i < size; ++i) {
     const bool second = i % 2 == 1;
+    const Index moment = i / 2, driven = std::max<Index>(0, i - standing_until);
     r.tx.push_back(second ? 1 : 0);
     r.rx.push_back(second ? 0 : 1);
-    r.t.push_back(0.05 * static_cast<double>(i / 2));
+    r.t.push_back(0.05 * static_cast<double>(moment));
     r.twin.push_back(second ? i - 1 : i + 1);
-    (second ? r.tx_at : r.rx_at)(0, i) = i < size / 2 ? 3 : 3 + 0.1 * static_cast<double>(i - size / 2);
+    (second ? r.tx_at : r.rx_at)(0, i) = 3 + 0.1 * static_cast<double>(driven);
   }
   const LinkLayout layout(r, {});
   const noise::Rows rows = layout.rows();
@@ -320,7 +324,7 @@ TEST(Stays, AreNotOnTheWay) {
     const int stay = stays[static_cast<std::size_t>(row)];
     EXPECT_TRUE(stay == 0 || stay == -1) << stay;
     if (stay == 0) standing += rows.count()[row];
-    EXPECT_EQ(stay, row < rows.means() && rows.last(row) < size / 2 ? 0 : -1) << row;
+    EXPECT_EQ(stay, row < rows.means() && rows.last(row) < standing_until ? 0 : -1) << row;
   }
   EXPECT_GT(standing, 5);
 }
