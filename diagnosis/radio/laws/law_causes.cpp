@@ -58,8 +58,8 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
   const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter;
   if (is_exact && (best->won.array() > thresholds::needs_law).count() <= thresholds::few_in_need &&
       scatters_by_itself(s, stated, residual, *best, found)) {
-    found.notes.push_back("some readings are off as by " + best->cause +
-                          ", as some are that the world itself draws: it is not named");
+    found.notes.push_back("a few readings look like " + best->cause +
+                          ", but so do readings that the world itself draws without it: it is not named");
     return likeliest;
   }
   if (std::string doubt = doubt_of(s, residual, field, found, *best); !doubt.empty()) {
