@@ -101,6 +101,40 @@ void copy_folder(const fs::path& from, const fs::path& to) {
   if (failed) throw Error(Exit::io, quote(to.string()) + " cannot be written: " + failed.message());
 }
 
+// What a world names by a path that its copy does not answer, such as a plan that worlds share or a model below the
+// world's folder, is named by its whole path there. True if something is.
+bool keep_paths(XMLElement& element, const fs::path& folder, const fs::path& copy) {
+  bool changed = false;
+  const auto keep = [&](const std::string& name, const fs::path& path) {
+    std::error_code none;
+    if (!fs::exists(path, none)) return false;
+    element.SetAttribute(name.c_str(), fs::weakly_canonical(path).string().c_str());
+    return changed = true;
+  };
+  std::vector<std::pair<std::string, std::string>> given;  // as attributes are changed on the way
+  for (const auto* a = element.FirstAttribute(); a; a = a->Next()) given.emplace_back(a->Name(), a->Value());
+  for (const auto& [name, value] : given) {
+    std::error_code none;
+    const fs::path path(value);
+    if (value.empty() || path.is_absolute() || fs::exists(copy / path, none)) continue;
+    if (path.has_parent_path() || name == "packages") keep(name, folder / path);
+    if (name == "model") keep(name, folder / "models" / path) || keep(name, folder / "models" / (value + ".urdf"));
+  }
+  for (XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement())
+    changed |= keep_paths(*e, folder, copy);
+  return changed;
+}
+
+void load(tinyxml2::XMLDocument& document, const fs::path& file) {
+  if (document.LoadFile(file.string().c_str()) != tinyxml2::XML_SUCCESS)
+    throw Error(Exit::io, file.string() + ": cannot be read again");
+}
+
+void save(tinyxml2::XMLDocument& document, const fs::path& file) {
+  if (document.SaveFile(file.string().c_str()) != tinyxml2::XML_SUCCESS)
+    throw Error(Exit::io, file.string() + ": cannot be written");
+}
+
 fs::path file_of(const fs::path& world) { return fs::is_directory(world) ? world / "world.xml" : world; }
 
 fs::path folder_of(const fs::path& file) { return fs::absolute(file).parent_path(); }
@@ -114,8 +148,13 @@ bool is_same(const fs::path& one, const fs::path& other) {
 
 fs::path copy_world(const fs::path& world, const fs::path& out) {
   const fs::path file = file_of(world), folder = folder_of(file);
-  if (!is_same(folder, out)) copy_folder(folder, out);
-  return out / file.filename();
+  const fs::path written = out / file.filename();
+  if (is_same(folder, out)) return written;
+  copy_folder(folder, out);
+  tinyxml2::XMLDocument document;
+  load(document, file);
+  if (keep_paths(*document.RootElement(), folder, out)) save(document, written);
+  return written;
 }
 
 fs::path write_extended_world(const Diagnosis& found, const fs::path& world, const fs::path& out) {
@@ -124,9 +163,9 @@ fs::path write_extended_world(const Diagnosis& found, const fs::path& world, con
     throw Error(Exit::invalid_input, quote(out.string()) + " holds the world itself; expected another folder");
   copy_folder(folder, out);
   tinyxml2::XMLDocument document;
-  if (document.LoadFile(file.string().c_str()) != tinyxml2::XML_SUCCESS)
-    throw Error(Exit::io, file.string() + ": cannot be read again");
+  load(document, file);
   XMLElement& root = *document.RootElement();
+  keep_paths(root, folder, out);
   for (const auto& [path, value] : found.parameters) {
     const auto slash = path.rfind('/');
     if (XMLElement* e = element_of(root, path.substr(0, slash)))
