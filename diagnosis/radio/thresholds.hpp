@@ -270,9 +270,6 @@ inline constexpr double open_law_nats = 3;
 inline constexpr uint64_t law_draws = 19;
 // factor; by which the evidence of a law must exceed that in each of these; chosen; none
 inline constexpr double beyond_drawn = 1.5;
-// readings; that need a law, up to which it is held against these draws; chosen;
-// Survey.ReadingsThatAreOffInRunsAreNoOutliers
-inline constexpr Eigen::Index few_in_need = 10;
 // draws; of the world, over which a fitted field scatters; chosen; none
 inline constexpr int field_draws = 12;
 // probability; of the fitted field among those of the world's draws, below which it is another; chosen; none

@@ -107,7 +107,7 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   const double gain = independent * missing.evidence;
   LawTest test{"", {}, gain, gain / 2, inference::log_tail(gain, 1)};
   if (missing.cut_off && !missing.censored)
-    test.log_p = of_both(test.log_p, independent * std::log(missing.none_below));
+    test.log_p = of_both(test.log_p, independent * std::log(std::max(missing.none_below, 1e-300)));
   if (causes.empty() || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
   if (clips_at(s, MUSTER_BELOW, true, missing.floor, step)) return false;
   if (!missing.cut_off && lost_below_the_stated_floor(s, missing.floor)) return false;

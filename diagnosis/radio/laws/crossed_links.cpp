@@ -7,6 +7,7 @@
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/standing_links_test.hpp"
+#include "diagnosis/radio/laws/testable_readings.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -54,7 +55,7 @@ Crossed add_blockage(const LawSources& s, const VectorXd& residual, Diagnosis& f
     add_tested(causes, s.data.t.empty() ? "not testable: the data have no t" : "", found);
     return stated && stated->all ? *stated : Crossed();
   }
-  const WalkersTest walkers = walkers_test(s.readings, residual);
+  const WalkersTest walkers = walkers_test(s.readings, without_second_twins(s.readings, s.state.rows(), residual));
   if (!walkers.test.values.empty() && walkers.test.values.front().value > thresholds::least_walker_loss &&
       beyond_chance(walkers.test, thresholds::law_alpha)) {
     add_tested(causes, "", found);

@@ -173,7 +173,7 @@ CloseReadings KrigedReadings::close_readings() const {
       if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
       const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
                                          (sites.anchor.col(i) - sites.anchor.col(j)).norm());
-      if (distance > thresholds::side_by_side) break;  // neighbours are sorted by distance
+      if (distance > thresholds::side_by_side) continue;  // those of another direction follow those of its own
       apart.push_back(distance);
       first.push_back(i);
       beside.push_back(mean_of_others(i, j));

@@ -12,6 +12,7 @@
 #include "diagnosis/radio/laws/testable_readings.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
+#include "muster/random.hpp"
 
 namespace muster::diagnosis {
 namespace {
@@ -27,14 +28,16 @@ KrigedReadings kriged(const LawSources& s, const VectorXd& residual) {
   return {s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr, fitted};
 }
 
-// Monte Carlo test: true if readings that the world itself draws look as much as by this law. Where nothing scatters
-// single ones, the few that the field is sharpest at do: a field of waves bends more than a normal one.
-bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
-                        const LawTest& law, const Diagnosis& found) {
+// Monte Carlo test: true if readings that the world itself draws, with the noise of these (`likeliest`), look as much
+// as by this law. Where nothing scatters single ones, the few that the field is sharpest at do: a field of waves bends
+// more than a normal one.
+bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, const ReadingDistribution& likeliest,
+                        const VectorXd& residual, const LawTest& law, const Diagnosis& found) {
   for (uint64_t k = 0; k < thresholds::law_draws; ++k) {
     const WorldDraw draw = s.draws.draw(k, found.parameters, {});
-    const VectorXd error =
-        residual.array().isFinite().select((draw.drawn - draw.expected)(s.used), std::nan("")).matrix();
+    const Stream noise(combined(key_of("noise of a draw"), k));
+    VectorXd error = residual.array().isFinite().select((draw.drawn - draw.expected)(s.used), std::nan("")).matrix();
+    for (Index i = 0; i < error.size(); ++i) error[i] += likeliest.noise * noise.normal(static_cast<uint64_t>(i));
     KrigedReadings field = kriged(s, error);
     const LawTests drawn =
         law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance, unsure(s, error));
@@ -54,16 +57,14 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     found.notes.push_back("single readings scatter as normal noise does, of which the world states none");
   if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
   if (!stated.base.law && replaces(s, best->cause)) return best->law;  // it contradicts nothing
-  // Many readings that are off are no sharp bends of a field.
-  const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter;
-  if (is_exact && (best->won.array() > thresholds::needs_law).count() <= thresholds::few_in_need &&
-      scatters_by_itself(s, stated, residual, *best, found)) {
-    found.notes.push_back("a few readings look like " + best->cause +
-                          ", but so do readings that the world itself draws without it: it is not named");
-    return likeliest;
-  }
   if (std::string doubt = doubt_of(s, residual, field, found, *best); !doubt.empty()) {
     found.notes.push_back(std::move(doubt));
+    return likeliest;
+  }
+  const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter;
+  if (is_exact && scatters_by_itself(s, stated, likeliest, residual, *best, found)) {
+    found.notes.push_back("readings look like " + best->cause +
+                          ", but so do readings that the world itself draws without it: it is not named");
     return likeliest;
   }
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
@@ -90,8 +91,8 @@ bool world_draws_alike(const LawSources& s, const Diagnosis& found) {
   Eigen::Matrix2Xd shapes(2, n);
   for (int k = 0; k < n; ++k) {
     const WorldDraw draw = s.draws.draw(static_cast<uint64_t>(k), found.parameters, {});
-    const VectorXd error = (draw.drawn - draw.expected)(s.used);
-    if (!error.allFinite()) return false;
+    VectorXd error = (draw.drawn - draw.expected)(s.used);
+    error = error.array().isFinite().select(error, 0);  // what a draw does not hear
     shapes.col(k) = shape_of(s, fitted_to(s.state, s.state.rows().mean(error)));
   }
   const Eigen::Vector2d mean = shapes.rowwise().mean(), away = shape_of(s, s.state.fit.covariance) - mean;

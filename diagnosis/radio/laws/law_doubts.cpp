@@ -225,6 +225,7 @@ std::string doubt_by_link(const LawSources& s, const VectorXd& residual, const L
   const std::vector<LinkInNeed> links = links_in_need(s, residual, law);
   LinkInNeed all;
   for (const LinkInNeed& link : links) all.add(link);
+  if (all.need == 0) return "";  // each reading needs the law a little
   const auto count = static_cast<double>(links.size());
   LinkInNeed first;  // the links so far, together
   std::set<std::string> names;

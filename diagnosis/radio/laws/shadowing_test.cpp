@@ -63,7 +63,7 @@ double in_field(LawLikelihood& judge, const ReadingDistribution& law, noise::Fam
                 const noise::StatedField& field) {
   const Peak there{0,
                    {family, thousandths(std::log(field.decorrelation / noise::efold(family)))},
-                   thousandths(std::log(variance_of(law, judge.step())) - 2 * std::log(field.shadowing))};
+                   thousandths(judge.log_variance_of(law) - 2 * std::log(field.shadowing))};
   return judge.value(law, there);
 }
 

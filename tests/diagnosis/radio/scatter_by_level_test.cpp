@@ -54,6 +54,27 @@ TEST(ScatterByLevel, IsToldByTheLevelThatTheFieldMakes) {
   EXPECT_LT(log_p(), std::log(1e-5));
 }
 
+// A robot that stops every half metre, where each direction is measured once: both are of one place, and no others are.
+TEST(CloseReadings, ArePairsOfBothDirections) {
+  constexpr int places = 200;
+  LinkReadings r;
+  r.tx_at = Eigen::Matrix3Xd::Zero(3, 2 * places);
+  r.rx_at = Eigen::Matrix3Xd::Zero(3, 2 * places);
+  std::mt19937 random(5);
+  std::normal_distribution<double> draw(0, 1.5);
+  Eigen::VectorXd residual(2 * places);
+  for (int k = 0; k < places; ++k) {
+    for (const int i : {2 * k, 2 * k + 1}) {
+      (i % 2 == 0 ? r.rx_at : r.tx_at)(0, i) = 0.5 * k;
+      r.tx.push_back(i % 2 == 0 ? 0 : 9);
+      r.rx.push_back(i % 2 == 0 ? 9 : 0);
+      r.t.push_back(k + 0.5 * (i % 2));
+      residual[i] = draw(random);
+    }
+  }
+  EXPECT_EQ(KrigedReadings(r, residual).close_readings().pairs, places);
+}
+
 TEST(ScatterByLevel, OfAFewPairsNothingIsTold) { EXPECT_EQ(scatter(-60, 0.4, 20).log_p, 0); }
 
 }  // namespace
