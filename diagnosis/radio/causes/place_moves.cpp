@@ -13,6 +13,8 @@ using std::numbers::pi;
 
 using Ways = std::vector<std::array<double, 4>>;
 
+constexpr double longest_piece = thresholds::longest_step;  // m, of a path
+
 // First path that starts at most `reach` west of x; paths are sorted by x.
 Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
   return std::partition_point(ways.begin(), ways.end(), [&](const auto& w) { return w[0] - x < -reach; });
@@ -21,7 +23,7 @@ Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
 }  // namespace
 
 int driven_across(const MeasurementGeometry& s, double x, double y, double length, double angle) {
-  const double reach = length / 2 + 2;  // a piece of a path is shorter than 2 m
+  const double reach = length / 2 + longest_piece;
   const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
   const auto side = [](double ax, double ay, double bx, double by, double px, double py) {
     return (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0;
@@ -37,9 +39,12 @@ int driven_across(const MeasurementGeometry& s, double x, double y, double lengt
 }
 
 bool driven_through(const MeasurementGeometry& s, double x, double y, double radius) {
-  for (auto at = from_west_of(s.ways, x, radius); at != s.ways.end() && at->front() - x <= radius; ++at) {
-    const double across = at->front() - x, along = (*at)[1] - y;
-    if (across * across + along * along < 0.49 * radius * radius) return true;
+  const double reach = radius + longest_piece;
+  for (auto at = from_west_of(s.ways, x, reach); at != s.ways.end() && at->front() - x <= reach; ++at) {
+    const Eigen::Vector2d from(at->front() - x, (*at)[1] - y), way((*at)[2] - at->front(), (*at)[3] - (*at)[1]);
+    if (std::abs(from.y()) > reach) continue;
+    const double nearest = std::clamp(-from.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+    if ((from + nearest * way).squaredNorm() < 0.49 * radius * radius) return true;
   }
   return false;
 }

@@ -350,7 +350,9 @@ void DiskScan::find_passing(double x, double y, double radius, const std::vector
     const double ex = bx - ax, ey = by - ay, squared = ex * ex + ey * ey;
     if (squared <= 0) continue;
     const double along = (x - ax) * ex + (y - ay) * ey, side = (x - ax) * ey - (y - ay) * ex;
-    if (side * side < radius * radius * squared) passing.push_back({k, along, side, squared});
+    const double beyond = along > squared ? along - squared : std::min(along, 0.0);  // its ends, by its length
+    if (side * side < radius * radius * squared && beyond * beyond < radius * radius * squared)
+      passing.push_back({k, along, side, squared});
   }
 }
 

@@ -122,8 +122,11 @@ double height_above_moving(const LinkModel& model, const MeasurementGeometry& su
   return top < -1e299 || next > 1e299 ? survey.height.high : (top + next) / 2;
 }
 
+// A heading past one half of a turn begins anew at the other.
+double turned(double yaw, double from) { return std::remainder(yaw - from, 2 * M_PI); }
+
 struct Trail {
-  Span east, north, yaw;
+  Span east, north, yaw;                      // yaw from the first one
   std::array<double, 2> readings = {};        // that it sends, that it receives
   std::vector<std::array<double, 2>> places;  // at least 0.2 m from one to the next
   std::vector<double> headings;               // at least 0.2 rad
@@ -145,8 +148,8 @@ void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
   const bool first = trail.places.empty();
   widen(trail.east, end.x, first);
   widen(trail.north, end.y, first);
-  widen(trail.yaw, end.yaw, first);
-  if (first || std::abs(std::remainder(end.yaw - trail.headings.back(), 2 * M_PI)) > thresholds::least_turn)
+  widen(trail.yaw, first ? 0 : turned(end.yaw, trail.headings.front()), first);
+  if (first || std::abs(turned(end.yaw, trail.headings.back())) > thresholds::least_turn)
     trail.headings.push_back(end.yaw);
   if (!first) {
     const auto [x, y] = trail.places.back();
@@ -214,7 +217,8 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   survey.strips = strips_of(model);
   std::map<int, Trail> trails;
   std::vector<double> distances, times;
-  Span heading;  // of the receiving ends
+  Span heading;  // of the receiving ends, from the first of them
+  double first_heading = 0;
   bool first = true;
   for (const std::size_t row : by_time(data)) {
     const auto& ends = model.ends()[row];
@@ -225,7 +229,8 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
       widen(survey.east, end.x, first);
       widen(survey.north, end.y, first);
       widen(survey.height, end.z, first);
-      if (k == 1) widen(heading, end.yaw, distances.empty());
+      if (k == 1 && distances.empty()) first_heading = end.yaw;
+      if (k == 1) widen(heading, turned(end.yaw, first_heading), distances.empty());
       first = false;
     }
     if (survey.has_time && !data.is_wild(row)) times.push_back(data.t[row]);

@@ -46,9 +46,9 @@ MovingEnds moving_ends(const LinkReadings& readings) {
     const Eigen::Vector3d to_tx = readings.tx_at.col(i) - readings.rx_at.col(i);
     const bool sends = ways.of(readings.tx[k]) > ways.of(readings.rx[k]);
     result.place.row(i) = (sends ? readings.tx_at : readings.rx_at).col(i).head<2>().transpose();
-    const bool from_tx = sends && !readings.tx_yaw.empty();
-    if (from_tx || !readings.rx_yaw.empty()) result.heading[i] = from_tx ? readings.tx_yaw[k] : readings.rx_yaw[k];
-    const double sign = from_tx ? -1 : 1;
+    const std::vector<double>& yaw = sends ? readings.tx_yaw : readings.rx_yaw;
+    if (!yaw.empty()) result.heading[i] = yaw[k];
+    const double sign = sends ? -1 : 1;
     result.bearing[i] = std::atan2(sign * to_tx.y(), sign * to_tx.x()) - result.heading[i];
   }
   return result;
