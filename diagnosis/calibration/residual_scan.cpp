@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "diagnosis/calibration/structure_test.hpp"
@@ -59,8 +60,12 @@ class Scanner {
   }
 
   static bool varies(const std::vector<double>& values, double least) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return *high - *low > least;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double v : values) {  // an empty cell is NaN, and neither less nor more
+      low = v < low ? v : low;
+      high = v > high ? v : high;
+    }
+    return high - low > least;
   }
 
   void add(const Subject& subject) { result_.looks.push_back(structure_along(fit_, subject, result_.shared_allowed)); }
@@ -181,6 +186,8 @@ class Scanner {
         add_names(column.name, column.factor);
       else if (const auto values = used(column.values); varies(values, 0))
         add_number(column.name, "", values, 5);
+      else
+        result_.not_tested.push_back(column.name + ": it is the same in all readings that are fitted");
     }
   }
 

@@ -157,7 +157,8 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);
     auto other = Diagnosed{world, data, plugins, tables, watch, end}.corrected_for(exchanged, found, false);
     if (watch.stop()) return interrupted(std::move(found));
-    return other && other->unseen && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
+    const bool both = other && other->unseen && corrected.unseen;
+    return both && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
   }
   Diagnosis again = with_it.run();
   keep_notes_of_given(world, found, folder.path(), again);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <utility>
 
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -65,7 +66,7 @@ ObservedColumns observed_columns(const Dataset& data, const std::vector<Index>& 
       continue;
     }
     const bool is_run = name == "run";
-    const std::size_t settings = is_run ? used.size() : thresholds::most_settings;
+    const std::size_t settings = is_run ? used.size() / 2 : thresholds::most_settings;
     inference::Factor factor{name, {}};
     if (column.values.empty()) {
       for (const Index row : used)
@@ -77,15 +78,16 @@ ObservedColumns observed_columns(const Dataset& data, const std::vector<Index>& 
         out.untested.push_back(column.name + ": it has empty cells");
         continue;
       }
-      std::set<double> different;
-      for (Index i = 0; i < values.size() && different.size() <= settings; ++i) different.insert(values[i]);
+      std::map<double, int> different;
+      for (Index i = 0; i < values.size() && different.size() <= settings; ++i) different[values[i]];
       if (different.size() > settings) {
         out.columns.covariates.push_back({name, values});
         continue;
       }
       if (different.size() < 2) continue;
-      for (const double v : values)
-        factor.level.push_back(static_cast<int>(std::distance(different.begin(), different.find(v))));
+      int next = 0;
+      for (auto& [value, level] : different) level = next++;
+      for (const double v : values) factor.level.push_back(different.at(v));
     }
     if (is_run) out.run = factor.level;
     out.columns.factors.push_back(std::move(factor));
@@ -100,7 +102,11 @@ std::vector<int> settings_of(const ObservedColumns& observed) {
     const int levels = *std::max_element(factor.level.begin(), factor.level.end()) + 1;
     if (levels > static_cast<int>(thresholds::most_settings)) continue;
     settings.resize(factor.level.size());
-    for (std::size_t i = 0; i < settings.size(); ++i) settings[i] = settings[i] * levels + factor.level[i];
+    std::map<std::pair<int, int>, int> number;  // numbered anew with each factor, or many make numbers that overflow
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const auto next = static_cast<int>(number.size());
+      settings[i] = number.try_emplace({settings[i], factor.level[i]}, next).first->second;
+    }
   }
   return settings;
 }

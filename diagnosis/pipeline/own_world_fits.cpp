@@ -98,8 +98,7 @@ OwnWorld OwnWorldFits::world_with(const Hypothesis& hypothesis) {
   OwnWorld world = linearised(hypothesis);
   for (int round = 0; round < 2 && world.hypothesis.place; ++round) {
     set(world.values);
-    world.hypothesis.place = moved_to_best(supposed, *world.hypothesis.place);
-    supposed.move(*world.hypothesis.place);
+    world.hypothesis.place = supposed.move(moved_to_best(supposed, *world.hypothesis.place));
     world = linearised(world.hypothesis);
   }
   set(s_.base.values);

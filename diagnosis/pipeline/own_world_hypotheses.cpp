@@ -182,10 +182,13 @@ Supposed::~Supposed() {
   if (cause_) model_.simulation().remove_all({supposed});
 }
 
-void Supposed::move(const InPlan& place) {
+InPlan Supposed::move(const InPlan& place) {
   const Sought sought = *sought_by(*cause_);
-  model_.set(std::string(supposed) + '/' + sought.east->name, place[0]);
-  model_.set(std::string(supposed) + '/' + sought.north->name, place[1]);
+  const InPlan there{std::clamp(place[0], sought.east->min, sought.east->max),
+                     std::clamp(place[1], sought.north->min, sought.north->max)};
+  model_.set(std::string(supposed) + '/' + sought.east->name, there[0]);
+  model_.set(std::string(supposed) + '/' + sought.north->name, there[1]);
+  return there;
 }
 
 Hypotheses hypotheses_of(const DiagnosisSetup& setup, const Diagnosis& found) {

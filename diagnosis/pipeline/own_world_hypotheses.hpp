@@ -35,7 +35,7 @@ class Supposed {
   Supposed(const Supposed&) = delete;
   Supposed& operator=(const Supposed&) = delete;
 
-  void move(const InPlan& place);
+  InPlan move(const InPlan& place);  // as near as its bounds allow: there
 
  private:
   LinkModel& model_;

@@ -177,6 +177,22 @@ TEST(Hall, TooFewReadingsForTheParameters) {
             "d.csv: the table has 2 heard readings; expected at least 4 to fit 3 parameters");
 }
 
+// The level falls with the battery, of which the first reading has none.
+TEST(Hall, AColumnWithAnEmptyCellIsTested) {
+  const Scratch scratch;
+  std::string table = "t[s],tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],battery[V],rssi[dBm]\n";
+  for (int i = 0; i < 200; ++i) {
+    const double volts = 3 + 0.005 * ((37 * i) % 200), way = 1 + 0.05 * ((61 * i) % 200);
+    table += std::to_string(i) + ",base,r,0,0," + print_real(way) + ",0," + (i == 0 ? "" : print_real(volts)) + "," +
+             print_real(-13 - 17 * std::log10(way) + 6 * (volts - 3.5) + (i % 3 - 1)) + "\n";
+  }
+  const ResidualScan scan = Fitted(hall, scratch.write("d.csv", table)).misfit();
+  const auto look = std::find_if(scan.looks.begin(), scan.looks.end(),
+                                 [](const StructureTest& l) { return l.by.substr(0, 7) == "battery"; });
+  ASSERT_NE(look, scan.looks.end());
+  EXPECT_TRUE(look->alarm);
+}
+
 // Half of the ends are outdoors, and would be inside with their axes exchanged: one place tells nothing.
 TEST(Hall, ANodeOutdoorsHasNoExchangedAxes) {
   const Scratch scratch;

@@ -89,6 +89,21 @@ TEST(Hypotheses, BeginAtWhatMisplacedRadiosHaveInCommon) {
                           [](const InPlan& p) { return std::abs(p[0] - 4.5) < 1e-9 && std::abs(p[1] + 1) < 1e-9; }));
 }
 
+// A search of places may step beyond what a cause allows.
+TEST(Hypotheses, StayWithinTheBoundsOfTheirCause) {
+  const Scratch scratch;
+  const DamagedLog log = damaged_log(scratch, Fault::none, 1);
+  DiagnosisSetup setup(log.world, log.table, plugins, std::make_shared<TableCache>());
+  const std::vector<Hypothesis> all = hypotheses_of(setup, {}).all;
+  const auto shifted = std::find_if(all.begin(), all.end(), [](const Hypothesis& h) { return h.place.has_value(); });
+  ASSERT_NE(shifted, all.end());
+  Supposed supposed(setup.model, *shifted);
+  const InPlan there = supposed.move({1e9, 0.5});
+  EXPECT_LT(there[0], 1e9);
+  EXPECT_EQ(there[1], 0.5);
+  EXPECT_EQ(supposed.move(there), there);
+}
+
 // What the map has wrong and what a radio has, each hide the other: without levels of the radios both of these logs
 // were another shadowing.
 TEST(OwnWorld, AFaultOfTheMapIsFoundBesideAWeakStation) {
