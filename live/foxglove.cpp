@@ -119,9 +119,7 @@ void Foxglove::message(const mcap::Message& message) {
   for (auto& [client, watcher] : watchers_) {
     const auto found = watcher.subscriptions.find(message.channel);
     if (found == watcher.subscriptions.end()) continue;
-    Frame frame = message_frame(found->second, channel.kept.back());
-    frame.may_drop = !channel.is_still;
-    client->send(std::move(frame));
+    client->send(message_frame(found->second, channel, channel.kept.back()));
   }
 }
 
@@ -171,8 +169,8 @@ Frame Foxglove::time_frame() const {
   return frame;
 }
 
-Frame Foxglove::message_frame(std::uint32_t subscription, const Kept& kept) {
-  Frame frame{std::string(1, static_cast<char>(message_data)), kept.data, true, false};
+Frame Foxglove::message_frame(std::uint32_t subscription, const Channel& channel, const Kept& kept) {
+  Frame frame{std::string(1, static_cast<char>(message_data)), kept.data, true, !channel.is_still};
   mcap::put(frame.head, subscription);
   mcap::put(frame.head, kept.time);
   return frame;
@@ -271,7 +269,7 @@ void Foxglove::subscribe(Client& client, const Request& request) {
     is_watched_ = true;
     if (channels_[number].kept.empty()) continue;
     client.send(time_frame());
-    for (const Kept& kept : channels_[number].kept) client.send(message_frame(subscription, kept));
+    for (const Kept& kept : channels_[number].kept) client.send(message_frame(subscription, channels_[number], kept));
   }
 }
 

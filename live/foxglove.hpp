@@ -82,7 +82,7 @@ class Foxglove : public mcap::Sink, public Listener {
   std::string advertisement(const std::vector<std::uint16_t>& channels) const;
   std::string service_list() const;
   Frame time_frame() const;
-  static Frame message_frame(std::uint32_t subscription, const Kept& kept);
+  static Frame message_frame(std::uint32_t subscription, const Channel& channel, const Kept& kept);
 
   Run run_;
   std::string session_;

@@ -55,6 +55,7 @@ class Listener {
   virtual void received(Client& client, std::string_view message, bool is_binary) = 0;
   // It reads again, after so many frames were dropped.
   virtual void caught_up(Client& client, std::uint64_t dropped) = 0;
+  // Never from within send().
   virtual void closed(Client& client) = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "live/websocket.hpp"
 
 #include <array>
+#include <boost/asio/post.hpp>
 #include <utility>
 
 namespace muster::live {
@@ -96,14 +97,16 @@ void WebSocket::close() {
   write();
 }
 
-// What is being written must stay until its handler is called.
+// What is being written must stay until its handler is called. The listener may be sending to all its clients just now,
+// and is told later.
 void WebSocket::lost() {
   if (state_ == State::closed) return;
   const bool was_open = is_open();
   state_ = State::closed;
   beast::error_code ignored;
   stream_.next_layer().socket().close(ignored);
-  if (was_open) listener_.closed(*this);
+  if (was_open)
+    boost::asio::post(stream_.get_executor(), [self = shared_from_this()] { self->listener_.closed(*self); });
 }
 
 }  // namespace muster::live
