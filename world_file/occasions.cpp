@@ -95,8 +95,9 @@ Occasion read_occasion(const XmlElement& element, const World& world) {
 }
 
 RowChange joining(const XmlElement& element, const World& world) {
+  const Place& at = element.place;
   const auto row = std::find_if(world.rows.begin(), world.rows.end(), [&](const RowDeclaration& each) {
-    return each.place.line == element.place.line && each.place.column == element.place.column;
+    return each.place.file == at.file && each.place.line == at.line && each.place.column == at.column;
   });
   return {RowChange::Kind::join, "", {}, row->name, row->sets, element.place};
 }

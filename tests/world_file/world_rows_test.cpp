@@ -67,6 +67,17 @@ TEST_F(Rows, WallsFromAFile) {
             (std::vector<double>{0, 0, 12, 0, 0, 2.7, 0.1, 0}));
 }
 
+// A wall in the line and the column of its file in which the world has a robot.
+TEST_F(Rows, ARowThatJoinsIsThatOfTheWorldsOwnFile) {
+  put("walls.csv", header +
+                       "w2,0,0,9,0,3,0,wood\nw3,0,0,9,0,3,0,wood\nw4,0,0,9,0,3,0,wood\nw5,0,0,9,0,3,0,wood\n"
+                       "w6,0,0,9,0,3,0,wood\n");
+  const World world = read_with(elements + "\n<at t='1'>\n<robot name='late' at='0 0 0'/></at>");
+  EXPECT_EQ(row(world, "wall", "w6").place.line, row(world, "robot", "late").place.line);
+  EXPECT_EQ(row(world, "wall", "w6").place.column, row(world, "robot", "late").place.column);
+  EXPECT_EQ(world.occasions.at(0).rows.at(0).row, "late");
+}
+
 TEST_F(Rows, WhatAFileMayGetWrong) {
   const auto with = [&](const std::string& text) {
     put("walls.csv", text);
