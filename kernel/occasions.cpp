@@ -33,6 +33,18 @@ bool holds(const Condition& condition, double value) {
   return false;
 }
 
+// Where the file has the instance first: what is swapped in stands where the first one stood.
+const Place& first_place(const World& world, const InstanceDeclaration& declared) {
+  for (const auto& instance : world.instances) {
+    if (instance.name == declared.name) return instance.place;
+  }
+  for (const auto& occasion : world.occasions) {
+    for (const auto& change : occasion.plugins)
+      if (change.kind == PluginChange::Kind::insert && change.instance == declared.name) return change.plugin.place;
+  }
+  return declared.place;  // not of the file
+}
+
 }  // namespace
 
 // "link/base/rover/rssi/rssi" as its parts.
@@ -188,9 +200,10 @@ bool Simulation::has(const std::string& instance) const {
 
 // An instance comes where the file has it, so that the order does not depend on when it came.
 std::size_t Simulation::place_of(const InstanceDeclaration& planned) const {
+  const Place& own = first_place(world_, planned);
   std::size_t at = 0;
   for (std::size_t i = 0; i < instances_.size(); ++i) {
-    if (precedes(instances_[i]->declared().place, planned.place)) at = i + 1;
+    if (precedes(first_place(world_, instances_[i]->declared()), own)) at = i + 1;
   }
   return at;
 }

@@ -128,6 +128,29 @@ TEST_F(Snapshots, AcrossAPlannedSwapTheRunGoesOnAsItDid) {
   EXPECT_EQ(cell(fresh, "instance/n/x"), 6 + 6 * 100);
 }
 
+// Of two stages of a chain one comes on the way, and then the other is swapped.
+TEST_F(Snapshots, AcrossAPlannedSwapTheOrderIsThatOfTheFile) {
+  const std::string text = two_robots +
+                           "<toy.copy_control name='ask' to='robot/*/q' own='true' add='1'/>\n"
+                           "<toy.copy_actuate name='first' as='modify' to='robot/*/q' times='2'/>\n"
+                           "<at t='1'><toy.copy_actuate name='second' as='modify' to='robot/*/q' add='100'/></at>\n"
+                           "<swap at='2' instance='first' plugin='toy.copy_actuate' as='modify' to='robot/*/q' "
+                           "times='3'/>\n"
+                           "<swap at='3' instance='second' plugin='toy.copy_actuate' as='modify' to='robot/*/q' "
+                           "add='1000'/>\n";
+  Simulation sim = run(text);
+  std::vector<Snapshot> all;
+  for (int i = 0; i < 10; ++i) all.push_back(sim.snapshot()), step(sim);
+  EXPECT_EQ(cell(sim, "robot/a/q"), 10 * 3 + 1000);
+  const uint64_t expected = sim.digest();
+  for (const Snapshot& from : all) {
+    Simulation fresh = run(text);
+    fresh.restore(from);
+    step(fresh, static_cast<int>(10 - from.tick));
+    EXPECT_EQ(fresh.digest(), expected) << from.tick;
+  }
+}
+
 TEST_F(Snapshots, ParametersComeBack) {
   Simulation sim = run(two_robots + "<toy.copy_physics name='n' to='self/x' add='1'/>\n");
   sim.set_parameter("n/add", 3);
