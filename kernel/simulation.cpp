@@ -99,6 +99,10 @@ std::shared_ptr<Library> Simulation::load_library(const InstanceDeclaration& dec
 
 std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration) {
   auto library = library_of(declaration);
+  return make(std::move(declaration), std::move(library));
+}
+
+std::unique_ptr<Instance> Simulation::make(InstanceDeclaration declaration, std::shared_ptr<Library> library) {
   auto made = std::make_unique<Instance>(std::move(declaration), std::move(library), around_);
   if (made->isolation()) made->step_elsewhere(std::make_unique<IsolatedStep>(*made, around_));
   return made;

@@ -120,6 +120,7 @@ class Simulation {
 
  private:
   std::unique_ptr<Instance> make(InstanceDeclaration declaration);
+  std::unique_ptr<Instance> make(InstanceDeclaration declaration, std::shared_ptr<Library> library);
   std::shared_ptr<Library> library_of(const InstanceDeclaration& declaration);
   std::shared_ptr<Library> load_library(const InstanceDeclaration& declaration);
   void add_providers();

@@ -120,7 +120,7 @@ void Simulation::reload(const std::string& name) {
   for (uint32_t i = 0; i < old.param_count; ++i) values[old.params[i].name] = before[i];
   instances_[at]->params() = std::move(before);
   try {
-    guarded([&] { replace(at, std::make_unique<Instance>(declared, load_library(declared), around_)); });
+    guarded([&] { replace(at, make(declared, load_library(declared))); });
   } catch (...) {
     libraries_[key] = library;
     throw;

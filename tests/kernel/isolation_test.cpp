@@ -187,6 +187,15 @@ TEST_F(Isolated, WritesNowhereElse) {
   EXPECT_EQ(column(sim, "robot/*/pose"), column(plain, "robot/*/pose"));
 }
 
+TEST_F(Isolated, APluginThatIsLoadedAgainStepsThereToo) {
+  const mode_t before = ::umask(022);
+  Simulation sim = ending("umask", AfterCrash::stop);
+  step(sim, 2);
+  sim.reload("mine");
+  EXPECT_EQ(error_of([&] { step(sim, 2); }), "no error");
+  EXPECT_EQ(::umask(before), 022);
+}
+
 TEST_F(Isolated, CreateAndDestroyAreTriedInProcessesOfTheirOwn) {
   EXPECT_THAT(error_of([&] { ending("kill", AfterCrash::stop, "where='create'"); }),
               HasSubstr("mine (toy.ends): create failed: its own process ended with a kill from outside (SIGKILL)"));
