@@ -50,6 +50,7 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
     plugin_ = &*found;
   }
   check_attributes();
+  given_params_ = params_;
   title_ = title();
   may_wait_ = find_param("wait") >= 0;  // declared so: it says itself for whom it waits
   host_ = make_host(*this);

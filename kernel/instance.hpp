@@ -126,6 +126,8 @@ class Instance {
   const std::vector<Claim>& claims() const { return claims_; }
   std::vector<double>& params() { return params_; }
   const std::vector<double>& params() const { return params_; }
+  // As its attributes and the defaults have them, whatever was set since.
+  const std::vector<double>& given_params() const { return given_params_; }
   // The parameter's number, or -1.
   int find_param(const std::string& param) const;
   // The row of the set "robot" that the parameter `robot` names, or -1.
@@ -181,7 +183,7 @@ class Instance {
   Surroundings& around_;
   muster_host host_{};
   void* self_ = nullptr;
-  std::vector<double> params_;
+  std::vector<double> params_, given_params_;
   std::map<std::string, std::string> texts_;  // text and file parameters
   std::map<std::string, Place> places_;       // of given attributes
   std::vector<Claim> claims_;

@@ -1,5 +1,6 @@
 // Changes between two ticks: instances swapped, inserted, removed, made again; parameters set.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "claim.hpp"
@@ -109,25 +110,61 @@ void Simulation::remake(const std::string& name) {
   instances_[at]->params() = std::move(params);
 }
 
+namespace {
+
+void check_value(const std::string& path, const muster_param& declared, double value) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(Exit::invalid_input, "parameter " + quote(path) + ": " + what);
+  };
+  const double most = declared.kind == MUSTER_CHOICE ? static_cast<double>(choices(declared).size()) - 1 : declared.max;
+  if (!(value >= declared.min && value <= most))
+    refuse(print_real(value) + " is out of bounds; expected " + expectation(declared));
+  if (declared.kind != MUSTER_REAL && value != std::floor(value))
+    refuse(print_real(value) + " is no integer; expected " + expectation(declared));
+}
+
+// What was set on the way goes over to a newer build of the plugin where that still has the parameter: of a choice the
+// word, whose number may be another. All else is what the attributes and the new defaults say. Throws Error.
+void carry_set_values(const Instance& from, Instance& to) {
+  for (uint32_t i = 0; i < from.plugin().param_count; ++i) {
+    const muster_param& old = from.plugin().params[i];
+    const int found = to.find_param(old.name);
+    const bool is_set = std::bit_cast<uint64_t>(from.params()[i]) != std::bit_cast<uint64_t>(from.given_params()[i]);
+    if (!is_set || found < 0 || !is_settable(old)) continue;
+    const muster_param& now = to.plugin().params[found];
+    if (!is_settable(now) || (old.kind == MUSTER_CHOICE) != (now.kind == MUSTER_CHOICE)) continue;
+    const std::string path = to.name() + '/' + now.name;
+    double value = from.params()[i];
+    if (old.kind == MUSTER_CHOICE) {
+      const auto words = choices(now);
+      const std::string word = choices(old).at(static_cast<std::size_t>(value));
+      const auto at = std::find(words.begin(), words.end(), word);
+      if (at == words.end())
+        throw Error(Exit::invalid_input,
+                    "parameter " + quote(path) + ": " + quote(word) + " is not a choice; " + suggest(word, words));
+      value = static_cast<double>(at - words.begin());
+    }
+    check_value(path, now, value);
+    to.params()[static_cast<std::size_t>(found)] = value;
+  }
+}
+
+}  // namespace
+
 void Simulation::reload(const std::string& name) {
   const auto at = find(name);
   const InstanceDeclaration declared = instances_[at]->declared();
   const auto key = library_key(declared);
   const auto library = libraries_[key];
-  auto before = std::move(instances_[at]->params());
-  const muster_plugin& old = instances_[at]->plugin();
-  std::map<std::string, double> values;
-  for (uint32_t i = 0; i < old.param_count; ++i) values[old.params[i].name] = before[i];
-  instances_[at]->params() = std::move(before);
   try {
-    guarded([&] { replace(at, make(declared, load_library(declared))); });
+    guarded([&] {
+      auto made = make(declared, load_library(declared));
+      carry_set_values(*instances_[at], *made);
+      replace(at, std::move(made));
+    });
   } catch (...) {
     libraries_[key] = library;
     throw;
-  }
-  for (const auto& [param, value] : values) {
-    const int number = instances_[at]->find_param(param);
-    if (number >= 0) instances_[at]->params()[static_cast<std::size_t>(number)] = value;
   }
   events_.push_back({tick_, name, std::string("reloaded ") + instances_[at]->plugin().id});
 }
@@ -238,21 +275,6 @@ ParameterInfo Simulation::parameter(const std::string& path) const {
   throw Error(Exit::invalid_input, unknown_parameter(path, all, whose_plugin(world_.instances, owner)) +
                                        (kind.empty() || has(owner) ? "" : "; it begins with " + quote(owner) + kind));
 }
-
-namespace {
-
-void check_value(const std::string& path, const muster_param& declared, double value) {
-  const auto refuse = [&](const std::string& what) {
-    throw Error(Exit::invalid_input, "parameter " + quote(path) + ": " + what);
-  };
-  const double most = declared.kind == MUSTER_CHOICE ? static_cast<double>(choices(declared).size()) - 1 : declared.max;
-  if (!(value >= declared.min && value <= most))
-    refuse(print_real(value) + " is out of bounds; expected " + expectation(declared));
-  if (declared.kind != MUSTER_REAL && value != std::floor(value))
-    refuse(print_real(value) + " is no integer; expected " + expectation(declared));
-}
-
-}  // namespace
 
 void Simulation::set_parameter(const std::string& path, double value) {
   const auto slash = path.rfind('/');

@@ -284,6 +284,33 @@ TEST_F(Changes, ARebuiltPluginRunsTheNewCode) {
   EXPECT_THAT(messages(sim), ElementsAre("4 v: reloaded toy.version/1"));
 }
 
+TEST_F(Changes, ARebuiltPluginHasItsNewDefaultsAndWhatWasSet) {
+  std::filesystem::copy(MUSTER_BUILD_DIR "/tests/toys/toy_version.so", folder);
+  Simulation sim = run(two_robots +
+                       "<toy.version name='u'/>\n<toy.version name='v' bias='3' mode='fast'/>\n"
+                       "<toy.version name='w'/>\n<toy.version name='x'/>\n<toy.version name='y'/>\n");
+  sim.set_parameter("w/bias", 5), sim.set_parameter("w/mode", 1);  // fast
+  sim.set_parameter("x/bias", -5);
+  sim.set_parameter("y/mode", 2);  // odd
+  std::filesystem::copy(MUSTER_BUILD_DIR "/tests/toys_rebuilt/toy_version.so", folder,
+                        std::filesystem::copy_options::overwrite_existing);
+  for (const char* one : {"u", "v", "w"}) sim.reload(one);
+  EXPECT_THAT(error_of([&] { sim.reload("x"); }),
+              HasSubstr("parameter \"x/bias\": -5 is out of bounds; expected a number from 0 to 10"));
+  EXPECT_THAT(error_of([&] { sim.reload("y"); }),
+              HasSubstr("parameter \"y/mode\": \"odd\" is not a choice; expected one of off, slow, fast"));
+  step(sim);
+  const auto cells = [&](const std::string& name) {  // version, bias, mode
+    const std::string table = "instance/" + name + "/version";
+    return std::vector{cell(sim, table), cell(sim, table, 2), cell(sim, table, 3)};
+  };
+  EXPECT_THAT(cells("u"), ElementsAre(2, 2, 0));
+  EXPECT_THAT(cells("v"), ElementsAre(2, 3, 2));
+  EXPECT_THAT(cells("w"), ElementsAre(2, 5, 2));
+  EXPECT_THAT(cells("x"), ElementsAre(1, -5, 0));
+  EXPECT_THAT(cells("y"), ElementsAre(1, 1, 2));
+}
+
 TEST_F(Changes, ALibraryThatCannotBeLoadedLeavesTheRun) {
   std::filesystem::copy(MUSTER_BUILD_DIR "/tests/toys/toy_version.so", folder);
   Simulation sim = run(two_robots + "<toy.version name='v'/>\n");
