@@ -98,6 +98,9 @@ class Elsewhere {
   virtual bool run(const muster_tick& now) = 0;
   // The links between instances have changed, or the names of rows.
   virtual void start_anew() = 0;
+  // The run goes on without the instance.
+  virtual bool is_given_up() const = 0;
+  virtual void give_up(bool given_up) = 0;
 };
 
 class Instance {
@@ -142,6 +145,10 @@ class Instance {
   void step_elsewhere(std::unique_ptr<Elsewhere> there) { there_ = std::move(there); }
   void start_anew_elsewhere() {
     if (there_) there_->start_anew();
+  }
+  bool is_given_up() const { return there_ && there_->is_given_up(); }
+  void give_up(bool given_up) {
+    if (there_) there_->give_up(given_up);
   }
   // CPU time of its steps, where the run asks for costs.
   struct Cost {

@@ -22,6 +22,8 @@ class IsolatedStep final : public Elsewhere {
 
   bool run(const muster_tick& now) override;
   void start_anew() override { process_.reset(); }
+  bool is_given_up() const override { return given_up_; }
+  void give_up(bool given_up) override { given_up_ = given_up; }
 
  private:
   class Crossing;

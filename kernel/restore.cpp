@@ -110,6 +110,13 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
       if (static_cast<std::size_t>(claim.row) >= rows.names.size()) refuse("it has no row for " + instance->title());
     }
   }
+  for (const auto& instance : instances_) {
+    const bool may_be_without = instance->isolation() && instance->isolation()->after == AfterCrash::without;
+    if (snapshot.instances.at(instance->name()).given_up && !may_be_without)
+      throw Error(Exit::invalid_input, "the run that was saved goes on without " + quote(instance->name()) +
+                                           ", whose process had ended; expected --isolate " + instance->name() +
+                                           "=without here, too");
+  }
   if (snapshot.dt != world_.dt)  // last: of another world it is the least that differs
     throw Error(Exit::invalid_input, "the snapshot was saved at ticks of " + print_real(snapshot.dt) +
                                          " s, and here they are of " + print_real(world_.dt) + " s; expected dt=\"" +
@@ -189,7 +196,9 @@ void Simulation::put(const Snapshot& snapshot) {
   }
   for (const auto& [name, saved] : snapshot.tables) board_.find(name)->stored() = saved.cells;
   for (const auto& instance : instances_) {
-    instance->params() = snapshot.instances.at(instance->name()).params;
+    const auto& saved = snapshot.instances.at(instance->name());
+    instance->params() = saved.params;
+    instance->give_up(saved.given_up);
     instance->start_anew_elsewhere();
   }
   tick_ = planned_from_ = snapshot.tick;

@@ -330,7 +330,8 @@ Snapshot Simulation::snapshot() const {
   for (const auto& instance : instances_) {
     const Place& place = instance->declared().place;
     result.instances[instance->name()] = {instance->plugin().id, static_cast<uint64_t>(place.line),
-                                          static_cast<uint64_t>(place.column), instance->params()};
+                                          static_cast<uint64_t>(place.column), instance->params(),
+                                          instance->is_given_up()};
   }
   return result;
 }

@@ -13,7 +13,7 @@
 namespace muster {
 namespace {
 
-constexpr std::string_view magic = "muster.snapshot.3\n";
+constexpr std::string_view magic = "muster.snapshot.4\n";
 constexpr std::string_view kind = "muster.snapshot.";  // of any version
 
 // A hash over words; each word is mixed before the next is added.
@@ -177,6 +177,7 @@ void Snapshot::save(const std::filesystem::path& file) const {
     writer.word(instance.line);
     writer.word(instance.column);
     writer.numbers(instance.params);
+    writer.word(instance.given_up);
   }
   write_whole(file, std::string(magic) + writer.finish());
 }
@@ -213,6 +214,7 @@ Snapshot Snapshot::load(const std::filesystem::path& file) {
     instance.line = reader.word();
     instance.column = reader.word();
     instance.params = reader.numbers<double>();
+    instance.given_up = reader.word() != 0;
   }
   reader.expect_check();
   return result;

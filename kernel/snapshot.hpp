@@ -23,6 +23,7 @@ struct Snapshot {
     std::string plugin;             // "radio.multiwall/1"
     uint64_t line = 0, column = 0;  // of its declaration in the world file
     std::vector<double> params;
+    bool given_up = false;  // its own process has ended, and the run goes on without it
     bool operator==(const SavedInstance&) const = default;
   };
   struct SavedTable {

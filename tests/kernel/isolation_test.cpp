@@ -139,6 +139,28 @@ TEST_F(Isolated, RunGoesOnWithoutIt) {
                                                 "(SIGKILL); the run goes on without it")));
 }
 
+TEST_F(Isolated, RunGoesOnWithoutItFromASavedState) {
+  Simulation sim = ending("kill", AfterCrash::without), fresh = ending("kill", AfterCrash::without);
+  step(sim, 2);
+  const Snapshot before = sim.snapshot();
+  step(sim, 2);
+  sim.snapshot().save(folder / "saved");
+  step(sim, 6);
+  const Snapshot saved = Snapshot::load(folder / "saved");
+  fresh.restore(saved);
+  step(fresh, 6);
+  EXPECT_EQ(fresh.digest(), sim.digest());
+  EXPECT_EQ(cell(fresh, "instance/mine/count"), 2);
+  fresh.restore(before);  // it is there again, and ends again
+  step(fresh, 2);
+  EXPECT_THAT(messages(fresh), Contains(HasSubstr("3 mine: warning: its own process ended with a kill from outside")));
+  Simulation strict = ending("kill", AfterCrash::restart), plain = run(busy_world + "<toy.ends name='mine'/>\n");
+  for (Simulation* other : {&strict, &plain})
+    EXPECT_EQ(error_of([&] { other->restore(saved); }),
+              "the run that was saved goes on without \"mine\", whose process had ended; expected --isolate "
+              "mine=without here, too");
+}
+
 // Ends all processes that this one has begun and that have not ended.
 int end_children() {
   int ended = 0;
