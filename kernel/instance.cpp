@@ -23,6 +23,13 @@ namespace {
 constexpr const char* arithmetic_as_it_was = " for the whole process; expected it to leave the arithmetic as it was";
 constexpr const char* process_as_it_was = " for the whole process; expected it to leave that as it was";
 
+// Declared so: `wait` says how long it waits for a client or a robot outside. That of a way point is a time of the
+// world.
+bool waits_for_others(const muster_plugin& plugin) {
+  const int wait = find_param(plugin, "wait");
+  return wait >= 0 && std::string_view(plugin.params[wait].help).starts_with("how long");
+}
+
 }  // namespace
 
 template <class Body>
@@ -52,15 +59,23 @@ Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> lib
   check_attributes();
   given_params_ = params_;
   title_ = title();
-  may_wait_ = find_param("wait") >= 0;  // declared so: it says itself for whom it waits
+  may_wait_ = waits_for_others(*plugin_);
   host_ = make_host(*this);
-  const auto& isolated = around_.isolated;
-  auto how = isolated.find(declared_.name);
-  if (how == isolated.end()) how = isolated.find("*");
-  if (how != isolated.end()) isolation_ = how->second;
+  isolate();
   create();
   in_.resize(claims_.size());
   out_.resize(claims_.size());
+}
+
+// A connection is kept by the process that has made it, and another process for its steps may begin at any of them.
+void Instance::isolate() {
+  const auto& isolated = around_.isolated;
+  const auto named = isolated.find(declared_.name), how = named == isolated.end() ? isolated.find("*") : named;
+  if (how == isolated.end()) return;
+  if (!may_wait_) return void(isolation_ = how->second);
+  const std::string why = "a connection to what it waits for would end with a process of its own";
+  if (how == named) throw refused("cannot be isolated: " + why + "; expected --isolate without its name");
+  events.push_back("note: steps in the process of the run: " + why);
 }
 
 namespace {
@@ -76,7 +91,7 @@ std::string trial(const Isolation& how, const Callback& callback) {
 void Instance::create() {
   const ProcessGuard guard;
   in_create_ = true;
-  if (isolation_ && !may_wait_) {
+  if (isolation_) {
     const std::string ended = trial(*isolation_, [&] { plugin_->create(&host_); });
     if (!ended.empty()) throw failure("create", nullptr, "its own process " + ended);
   }
@@ -101,7 +116,7 @@ Instance::~Instance() {
 
 void Instance::destroy() {
   error_.clear();
-  if (isolation_ && !may_wait_) {
+  if (isolation_) {
     const std::string ended = trial(*isolation_, [&] { plugin_->destroy(self_); });
     if (!ended.empty())
       return around_.destroy_faults.push_back(failure("destroy", nullptr, "its own process " + ended).what());

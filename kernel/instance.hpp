@@ -174,6 +174,7 @@ class Instance {
   template <class Body>
   auto guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) noexcept;
   void check_attributes();
+  void isolate();
   void create();
   void destroy();
   bool step_here(const muster_tick& now) noexcept;

@@ -235,6 +235,21 @@ TEST_F(Isolated, RowsMayBeManyMoreThanBefore) {
   EXPECT_EQ(digest_of(isolated(many, {{"*", {}}})), digest_of(run(many)));
 }
 
+TEST_F(Isolated, WhatWaitsForOthersStepsInTheProcessOfTheRun) {
+  const std::string waiting = two_robots + "<toy.wait_outside name='out'/>\n<toy.wait_here name='here'/>\n";
+  const std::string why = "a connection to what it waits for would end with a process of its own";
+  Simulation sim = isolated(waiting, {{"*", {}}});
+  step(sim);
+  EXPECT_EQ(cell(sim, "instance/out/where"), ::getpid());
+  EXPECT_NE(cell(sim, "instance/here/where"), ::getpid());
+  EXPECT_THAT(messages(sim), Contains("0 out: note: steps in the process of the run: " + why));
+  EXPECT_EQ(
+      error_of([&] {
+        isolated(waiting, {{"out", {}}});
+      }),
+      "world.xml:4:1: out (toy.wait_outside): cannot be isolated: " + why + "; expected --isolate without its name");
+}
+
 TEST_F(Isolated, NameIsThatOfAnInstance) {
   EXPECT_EQ(error_of([&] {
               isolated(busy_world, {{"clipp", {}}});
