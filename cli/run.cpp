@@ -177,6 +177,7 @@ void check_written(const RunWords& words) {
     files.reads(words.restore, "--restore");  // a state that goes on may stay in one file
   WrittenFiles::writes_folder(words.out, "--out",
                               std::filesystem::path(words.out).extension() == ".mcap" ? "--mcap" : "--wide");
+  if (!words.restore.empty() && !words.out.empty()) WrittenFiles::replaces_no_record(words.out, "--out");
   files.writes(words.log.mcap, "--mcap");
   files.writes(words.log.wide, "--wide");
   files.writes(words.save, "--save");

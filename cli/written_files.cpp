@@ -4,6 +4,7 @@
 
 #include "text/error.hpp"
 #include "text/xml.hpp"
+#include "viewer/record_folder.hpp"
 
 namespace muster::cli {
 namespace {
@@ -78,6 +79,17 @@ void WrittenFiles::writes_folder(const fs::path& folder, const std::string& opti
               (of_file.empty() ? ""
                                : ", or " + of_file + ' ' + folder.string() + " for what is recorded, in one file"));
   }
+}
+
+void WrittenFiles::replaces_no_record(const fs::path& folder, const std::string& option) {
+  std::error_code none;
+  bool has_record = fs::exists(folder / viewer::run_file, none);
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    has_record |= entry.path().string().ends_with(".csv.part");
+  if (has_record)
+    throw Error(Exit::invalid_input, option + ": " + folder.string() +
+                                         " has the record of a run, which that of a run that goes on would replace; "
+                                         "expected another folder");
 }
 
 }  // namespace muster::cli

@@ -20,6 +20,9 @@ class WrittenFiles {
   // Throws Error where the path is a file, or is called like one; `of_file` is the option that writes such a file.
   static void writes_folder(const std::filesystem::path& folder, const std::string& option,
                             const std::string& of_file = "");
+  // Of a run that goes on from a state: throws Error where the folder has a record, whole or cut off, which may be that
+  // of the time before.
+  static void replaces_no_record(const std::filesystem::path& folder, const std::string& option);
 
  private:
   using Named = std::pair<std::filesystem::path, std::string>;

@@ -114,6 +114,27 @@ TEST_F(WrittenFiles, AreNoTableOfTheUsers) {
   EXPECT_EQ(folder.muster(run).exit, 0);  // over its own
 }
 
+// Its second part would take the place of the first.
+TEST_F(WrittenFiles, AreNotTheRecordOfARunThatGoesOn) {
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"run", "world.xml", "--record", "endpoint/*/pose", "--plugins", MUSTER_TOYS});
+    return folder.muster(words);
+  };
+  const std::vector<std::string> goes_on{"--until", "2", "--restore", "state", "--out", "out"};
+  const std::string message =
+      "--out: out has the record of a run, which that of a run that goes on would replace; expected another folder";
+  ASSERT_EQ(run({"--out", "out", "--save", "state"}).exit, 0);
+  const std::string first = folder.read("out/endpoint_pose.csv");
+  expect_error(run(goes_on), 2, message);
+  EXPECT_EQ(folder.read("out/endpoint_pose.csv"), first);
+  std::filesystem::remove(folder.path() / "out/run.json");  // as after a run that was killed
+  std::filesystem::rename(folder.path() / "out/endpoint_pose.csv", folder.path() / "out/endpoint_pose.csv.part");
+  expect_error(run(goes_on), 2, message);
+  EXPECT_EQ(folder.read("out/endpoint_pose.csv.part"), first);
+  const auto elsewhere = run({"--until", "2", "--restore", "state", "--out", "rest"});
+  EXPECT_EQ(elsewhere.exit, 0) << elsewhere.err;
+}
+
 TEST_F(WrittenFiles, AreNoOtherWorld) {
   std::filesystem::create_directory(folder.path() / "other");
   folder.write("other/world.xml", world_of(""));
