@@ -4,9 +4,11 @@
 #include <set>
 #include <utility>
 
+#include "parameter_words.hpp"
 #include "simulation.hpp"
 #include "text/names.hpp"
 #include "text/number.hpp"
+#include "world_file/params.hpp"
 
 namespace muster {
 namespace {
@@ -36,15 +38,38 @@ bool refers_to_rows(const Column& column, std::size_t c, const Cells& cells, std
 
 bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& cells, const Snapshot& snapshot) {
   const bool queue = table.set().kind == SetKind::queue;
+  if (cells.rows > cells.data.size()) return false;  // nor can the product be beyond all numbers
   if (cells.data.size() != cells.rows * table.width() || cells.appended.size() != (queue ? cells.rows : 0))
     return false;
   if (!queue && cells.rows != (table.set().kind == SetKind::listed ? set.listed : set.names.size())) return false;
   for (std::size_t c = 0; c < table.width(); ++c) {
     for (std::size_t r = 0; table.columns()[c].bytes && r < cells.rows; ++r) {
       const double blob = cells.data[r * table.width() + c];
-      if (!(blob >= 0 && blob <= static_cast<double>(cells.blobs.size()))) return false;
+      if (!(blob >= 0 && blob <= static_cast<double>(cells.blobs.size()) && blob == std::floor(blob))) return false;
     }
     if (!refers_to_rows(table.columns()[c], c, cells, table.width(), snapshot)) return false;
+  }
+  return true;
+}
+
+// As an attribute or a change in the run can have set it: plugins count with choices and with rows.
+bool is_sound(const muster_param& declared, double value, const Snapshot& snapshot) {
+  if (declared.kind == MUSTER_REFERENCE) {
+    const auto set = snapshot.sets.find(declared.text);
+    const bool is_row = set != snapshot.sets.end() && value >= 0 && value == std::floor(value) &&
+                        value < static_cast<double>(set->second.names.size());
+    return is_row || value == declared.value;
+  }
+  if (!is_settable(declared)) return true;
+  if (declared.kind == MUSTER_FLAG) return value == 0 || value == 1;
+  if (declared.kind != MUSTER_REAL && value != std::floor(value)) return false;
+  if (declared.kind == MUSTER_CHOICE) return value >= 0 && value < static_cast<double>(choices(declared).size());
+  return value >= declared.min && value <= declared.max;
+}
+
+bool has_sound_params(const muster_plugin& plugin, const std::vector<double>& values, const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!is_sound(plugin.params[i], values[i], snapshot)) return false;
   }
   return true;
 }
@@ -58,7 +83,8 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     if (found->second.plugin != instance->plugin().id)
       refuse("its instance " + quote(instance->name()) + " is a " + found->second.plugin + "; here it is a " +
              instance->plugin().id);
-    if (found->second.params.size() != instance->params().size())
+    const auto& params = found->second.params;
+    if (params.size() != instance->params().size() || !has_sound_params(instance->plugin(), params, snapshot))
       refuse("its instance " + quote(instance->name()) + " has other parameters");
   }
   for (const auto& [name, saved] : snapshot.instances) {
@@ -95,7 +121,9 @@ void Simulation::check_fits(const Snapshot& snapshot) const {
     const auto found = snapshot.tables.find(name);
     if (found == snapshot.tables.end()) refuse("it has no table " + quote(name));
     if (found->second.columns != table->columns().text()) refuse("its table " + quote(name) + " has other columns");
-    if (!is_sound(*table, snapshot.sets.at(table->set().name), found->second.cells, snapshot))
+    const auto set = snapshot.sets.find(table->set().name);
+    if (set == snapshot.sets.end()) refuse("it has no set " + quote(table->set().name));
+    if (!is_sound(*table, set->second, found->second.cells, snapshot))
       refuse("its table " + quote(name) + " has other rows");
   }
   for (const auto& [name, table] : snapshot.tables) {

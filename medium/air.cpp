@@ -203,7 +203,7 @@ void Air::save(Writer& out) const {
 void Air::load(Reader& in) {
   in.get(begun_);
   in.get(heard_until_);
-  frames_.resize(in.get<std::size_t>());
+  frames_.resize(in.count());
   for (Frame& f : frames_)
     in.get(f.id), in.get(f.sender), in.get(f.begin), in.get(f.end), in.get(f.format), in.get(f.ack_of), in.get(f.to);
   in.get_all(lock_), in.get_all(log_right_), in.get_all(others_), in.get_all(rssi_), in.get_all(deaf_until_);

@@ -51,17 +51,24 @@ class Reader {
   template <class T>
   void get_all(std::vector<T>& values) {
     static_assert(std::is_arithmetic_v<T>);
-    values.resize(get<std::size_t>());
+    values.resize(count(sizeof(T)));
     if (!values.empty()) std::memcpy(values.data(), next(values.size() * sizeof(T)).data(), values.size() * sizeof(T));
+  }
+  // A number of things of so many bytes each or more: no more than can follow.
+  std::size_t count(std::size_t least = 1) {
+    const auto things = get<std::size_t>();
+    if (things > bytes_.size() / least) fail();
+    return things;
   }
   bool is_at_end() const { return bytes_.empty(); }
   std::string_view text() { return next(get<std::size_t>()); }
 
  private:
-  std::string_view next(std::size_t count) {
-    if (count > bytes_.size()) throw std::runtime_error("the network's state ends too early");
-    const std::string_view result = bytes_.substr(0, count);
-    bytes_.remove_prefix(count);
+  [[noreturn]] static void fail() { throw std::runtime_error("the network's state ends too early"); }
+  std::string_view next(std::size_t bytes) {
+    if (bytes > bytes_.size()) fail();
+    const std::string_view result = bytes_.substr(0, bytes);
+    bytes_.remove_prefix(bytes);
     return result;
   }
   std::string_view bytes_;

@@ -19,7 +19,7 @@ template <class Record, class Fields>
 void load(Reader& in, Air& air, TransmitQueue& post, std::vector<Record>& records, const Fields& fields) {
   air.load(in);
   post.load(in);
-  records.resize(in.get<std::size_t>());
+  records.resize(in.count());
   for (Record& record : records) fields([&](auto& value) { in.get(value); }, record);
 }
 

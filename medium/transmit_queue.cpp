@@ -130,9 +130,9 @@ void TransmitQueue::save(Writer& out) const {
 }
 
 void TransmitQueue::load(Reader& in) {
-  queues_.resize(in.get<std::size_t>());
+  queues_.resize(in.count());
   for (auto& queue : queues_) {
-    queue.resize(in.get<std::size_t>());
+    queue.resize(in.count());
     for (Message& message : queue) {
       in.get(message.asked), in.get(message.to), in.get(message.size), in.get(message.frame);
       message.payload = in.text();

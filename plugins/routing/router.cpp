@@ -304,13 +304,13 @@ void Router::load(std::string_view bytes) {
     in.get_all(journey.seen);
     journey.receivers.load(in);
   }
-  nodes_.resize(in.get<std::size_t>());
+  nodes_.resize(in.count());
   for (Node& node : nodes_) {
-    node.queue.resize(in.get<std::size_t>());
+    node.queue.resize(in.count());
     for (auto& [to, packet] : node.queue) in.get(to), packet = decoded(in.text());
-    node.parked.resize(in.get<std::size_t>());
+    node.parked.resize(in.count());
     for (Packet& packet : node.parked) packet = decoded(in.text());
-    node.given.resize(in.get<std::size_t>());
+    node.given.resize(in.count());
     for (Given& given : node.given) in.get(given.to), in.get(given.journey), in.get(given.head), in.get(given.arrived);
     in.get(node.asked), in.get(node.under_way), in.get(node.least), in.get(node.patience);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,7 +35,8 @@ inline std::string bytes_of(const std::vector<Sweep>& sweeps) {
   return result;
 }
 
-// As many as a robot has sensors; those that the bytes lack are off.
+// As many as a robot has sensors; those that the bytes lack are off. Throws std::runtime_error where they end within
+// one.
 inline std::vector<Sweep> sweeps_of(std::string_view bytes, std::size_t sensors) {
   std::vector<Sweep> result(sensors);
   std::size_t at = 0;
@@ -47,7 +49,11 @@ inline std::vector<Sweep> sweeps_of(std::string_view bytes, std::size_t sensors)
   for (Sweep& one : result) {
     if (at >= bytes.size()) break;
     for (double* value : {&one.is_on, &one.t, &one.id, &one.x, &one.y, &one.yaw}) *value = get();
-    one.ranges.resize(static_cast<std::size_t>(get()));
+    const double rays = get();
+    const std::size_t left = at < bytes.size() ? (bytes.size() - at) / sizeof(double) : 0;
+    if (!(rays >= 0 && rays <= static_cast<double>(left)))
+      throw std::runtime_error("the state of a scan under way ends too early");
+    one.ranges.resize(static_cast<std::size_t>(rays));
     for (double& range : one.ranges) range = get();
   }
   return result;

@@ -107,6 +107,48 @@ TEST_F(Snapshots, ReferencesToNoRowAreRefusedAndTheRunStands) {
   EXPECT_NE(error_of([&] { sim.restore(twice); }), "");
 }
 
+// A whole file with numbers that no run could have saved.
+TEST_F(Snapshots, NumbersThatNoRunHasAreRefusedAndTheRunStands) {
+  Simulation sim = run(two_robots +
+                       "<toy.copy_physics name='n' to='self/x'/>\n<toy.list name='l'/>\n"
+                       "<toy.send_control name='s' robot='a' to='outbox/{robot}/message' size='20'/>\n");
+  step(sim, 3);
+  const Snapshot saved = sim.snapshot();
+  const uint64_t before = sim.digest();
+  const auto refused = [&](const auto& craft) {
+    Snapshot crafted = saved;
+    craft(crafted);
+    const std::string error = error_of([&] { sim.restore(crafted); });
+    EXPECT_EQ(sim.digest(), before) << error;
+    return error;
+  };
+  const std::string of = "the snapshot is of another world: ";
+  const Columns& columns = sim.board().find("outbox/*/message")->columns();
+  std::size_t bytes = 0;
+  while (!columns[bytes].bytes) ++bytes;
+  for (const double blob : {0.5, 1.5}) {
+    EXPECT_EQ(refused([&](Snapshot& s) { s.tables.at("outbox/*/message").cells.data[bytes] = blob; }),
+              of + "its table \"outbox/*/message\" has other rows");
+  }
+  EXPECT_EQ(refused([](Snapshot& s) { s.sets.erase("instance/n"); }), of + "it has no set \"instance/n\"");
+  EXPECT_EQ(refused([](Snapshot& s) {
+              auto& ends = s.tables.at("link/*/ends").cells;  // of two columns: as many cells are 0 in 64 bits
+              ends.rows = s.sets.at("link").listed = uint64_t{1} << 63;
+              ends.data.clear();
+            }),
+            of + "its table \"link/*/ends\" has other rows");
+  const auto with = [&](const std::string& param, double value) {
+    const auto number = static_cast<std::size_t>(sim.instances()[0]->find_param(param));
+    return refused([&](Snapshot& s) { s.instances.at("n").params.at(number) = value; });
+  };
+  const std::string other = of + "its instance \"n\" has other parameters";
+  for (const double choice : {-1.0, 0.5, 3.0, std::nan("")}) EXPECT_EQ(with("as", choice), other) << choice;
+  for (const double row : {-2.0, 0.5, 2.0, std::nan("")}) EXPECT_EQ(with("robot", row), other) << row;
+  EXPECT_EQ(with("flags", 32), other);
+  EXPECT_EQ(with("add", std::nan("")), other);
+  EXPECT_EQ(with("robot", 1), "no error");
+}
+
 TEST_F(Snapshots, AcrossAPlannedSwapTheRunGoesOnAsItDid) {
   const std::string text = two_robots +
                            "<toy.copy_physics name='n' to='self/x' own='true' add='1'/>\n"

@@ -6,6 +6,8 @@
 
 #include <muster/random.hpp>
 
+#include "plugins/sensors/sweep.hpp"
+
 namespace muster {
 namespace {
 
@@ -168,6 +170,18 @@ TEST(Fan, MeetsTheGroundWhereItSinks) {
   fan.meet_ground(0.2, Vector3d(std::sin(pitch), 0, -std::cos(pitch)));
   EXPECT_NEAR(fan.ranges()[1], 0.2 / std::sin(pitch), 1e-12);
   EXPECT_NEAR(fan.ranges()[0], 0.2 / (std::sin(pitch) * std::cos(0.5)), 1e-12);
+}
+
+TEST(ScanUnderWay, IsHeldWholeByItsBytes) {
+  const std::string bytes = bytes_of({{1, 0.5, 3, 0, 0, 0, {4, 5}}, {}});
+  const std::vector<Sweep> scans = sweeps_of(bytes, 3);
+  EXPECT_EQ(scans[0].ranges, (std::vector<double>{4, 5}));
+  EXPECT_EQ(scans[2].is_on, 0);
+  for (const double rays : {10.0, 1e18, -1.0, std::nan("")}) {
+    std::string bad = bytes;
+    std::memcpy(bad.data() + 6 * sizeof rays, &rays, sizeof rays);
+    EXPECT_THROW(sweeps_of(bad, 2), std::runtime_error) << rays;
+  }
 }
 
 }  // namespace
