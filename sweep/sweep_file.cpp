@@ -71,7 +71,7 @@ std::vector<std::int64_t> seeds_of(const XmlAttribute& attribute) {
     const std::int64_t last = dots == std::string::npos ? first : seed_of(word.text.substr(dots + 2), word);
     if (last < first)
       throw invalid(word.place, "the range " + quote(word.text) + " is empty; expected its least seed first");
-    if (static_cast<std::size_t>(last - first) >= most_runs)
+    if (static_cast<std::size_t>(last - first) >= most_runs - result.size())
       throw invalid(word.place, fmt::format("more than {} seeds", most_runs));
     for (std::int64_t seed = first;; ++seed) {
       if (!seen.insert(seed).second)

@@ -62,6 +62,7 @@ TEST(SweepFile, TellsWhatIsWrongAndWhere) {
       {"<sweep world=\"w\" seeds=\"9..2\"/>", "1:25: the range \"9..2\" is empty; expected its least seed first"},
       {"<sweep world=\"w\" seeds=\"1..5 4\"/>", "1:30: the seed 4 is there already; expected each seed once"},
       {"<sweep world=\"w\" seeds=\"0..1000000\"/>", "1:25: more than 1000000 seeds"},
+      {"<sweep world=\"w\" seeds=\"0 1..1000000\"/>", "1:27: more than 1000000 seeds"},
       {head + "<vari set=\"a\"/></sweep>",
        "2:1: there is no element <vari> in a sweep; expected one of vary, metric; did you mean \"vary\"?"},
       {head + "<vary set=\"a\"/></sweep>", "2:1: <vary> needs values=\"...\""},
