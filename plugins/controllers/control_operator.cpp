@@ -1,5 +1,6 @@
 // A person at a station: orders that go by the radio, are lost like all else, and are given again until they are
 // answered.
+#include <cmath>
 #include <muster/plugin.hpp>
 
 #include "mission_doubts.hpp"
@@ -33,6 +34,9 @@ std::vector<Order> read_orders(const Setup& setup) {
       refuse(each.place, "<order> to all is answered by nobody in particular; again=\"...\" needs to=\"...\"");
     if (order.again == 0 && each.attribute("tries"))
       refuse(each.attribute("tries")->place, "tries=\"...\" needs again=\"...\", the time between them");
+    if (order.tries != std::floor(order.tries))
+      refuse(each.attribute("tries")->value_place,
+             "attribute \"tries\": " + print_real(order.tries) + " is no whole number; expected one, such as 3");
     orders.push_back(std::move(order));
   }
   if (orders.empty()) refuse(root.place, "<orders> is empty; expected <order at=\"...\" to=\"...\" text=\"...\"/>");
@@ -79,7 +83,7 @@ struct ControlOperator {
     std::size_t sent = 0;
     for (std::size_t i = 0; i < orders.size(); ++i) {
       if (all[i].done != 0 || !is_to_give(k, orders[i], all[i])) continue;
-      if (all[i].sent == orders[i].tries) {
+      if (all[i].sent >= orders[i].tries) {
         k.event("the order \"" + orders[i].text + "\" was never answered by " + receiver(k, orders[i]));
         ++now.unanswered, all[i].done = 1;
         continue;

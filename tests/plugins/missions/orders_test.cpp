@@ -80,6 +80,8 @@ TEST_F(Orders, WhatCannotBeIsRefused) {
             "1:27: no radio is called \"scuot\"; expected one of base, scout; did you mean \"scout\"?");
   EXPECT_EQ(refused("<order at='1' to='scout' text='go' tries='3'/>"),
             "1:44: tries=\"...\" needs again=\"...\", the time between them");
+  EXPECT_EQ(refused("<order at='1' to='scout' text='go' again='1' tries='2.5'/>"),
+            "1:61: attribute \"tries\": 2.5 is no whole number; expected one, such as 3");
 }
 
 }  // namespace
