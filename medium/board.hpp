@@ -123,10 +123,11 @@ class Board {
   template <class Medium>
   void ask(const Step& k, Medium& medium) const {
     const auto requests = k[request_];
+    const Time last = nanoseconds(k.time()) - 1;  // of this run: a request that rounds to its end would be dropped
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const auto from = static_cast<std::size_t>(requests[i].radio);
       const double share = k[spread_] != 0 ? moments_.of(channel_.keys[from]).uniform(k.tick(), i) : 0;
-      medium.ask(nanoseconds(k.time() - (1 - share) * k.dt()), from,
+      medium.ask(std::min(nanoseconds(k.time() - (1 - share) * k.dt()), last), from,
                  is_null(requests[i].to) ? everyone : static_cast<std::size_t>(requests[i].to),
                  std::string(k.bytes(request_, i, Outgoing::payload_column)));
     }

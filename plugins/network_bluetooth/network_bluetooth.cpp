@@ -8,7 +8,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkBluetooth {
-  static constexpr auto id = "network.bluetooth/1";
+  static constexpr auto id = "network.bluetooth/2";
   static constexpr auto summary = "Bluetooth at its basic rate: a master and up to seven slaves, polled in slots";
   static constexpr auto manual =
       R"(Messages as packets of Bluetooth (Core Specification 2.0, basic rate): slots of 625 us, 79 channels of 1 MHz.

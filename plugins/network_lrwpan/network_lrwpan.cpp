@@ -12,7 +12,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkLrwpan {
-  static constexpr auto id = "network.lrwpan/2";
+  static constexpr auto id = "network.lrwpan/3";
   static constexpr auto summary = "IEEE 802.15.4 at 2.4 GHz: radios that share a channel by CSMA/CA";
   static constexpr auto manual =
       R"(Messages as frames of IEEE 802.15.4-2006 (the radio of Zigbee), CSMA/CA, 250 kbit/s: back-off, clear-channel

@@ -8,7 +8,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkWifi {
-  static constexpr auto id = "network.wifi/1";
+  static constexpr auto id = "network.wifi/2";
   static constexpr auto summary = "IEEE 802.11g ad hoc: stations that share a channel by DCF";
   static constexpr auto manual =
       R"(Messages as frames of ERP-OFDM (IEEE 802.11-2016, clause 18) under the distributed coordination function: DIFS, EIFS and

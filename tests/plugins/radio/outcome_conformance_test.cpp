@@ -63,6 +63,14 @@ TEST_P(EachSharedChannel, Row21AQueueHoldsSoManyAndRefusesTheRest) {
   EXPECT_EQ(traffic(sim, "a", "queue_full"), 14);
 }
 
+// In a tick of 10 ns one request in 20 is nearer to its end than half a nanosecond.
+TEST_P(EachSharedChannel, Row21ARequestAtTheVeryEndOfItsTickIsEvaluated) {
+  constexpr int ticks = 20;
+  Simulation sim = world(send("s", "a", "to=\"b\" count=\"20\""), 1, "1e-08");
+  run(sim, ticks);
+  EXPECT_EQ(traffic(sim, "a", "asked"), 20 * ticks);
+}
+
 TEST_P(EachSharedChannel, Row21AirTimeThrottles) {
   Simulation sim = world(send("s", "a", "to=\"b\" count=\"100\" size=\"10000\""));
   double bits = 0;
