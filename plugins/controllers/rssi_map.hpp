@@ -23,7 +23,6 @@ class RssiMap {
   template <class Places>
   explicit RssiMap(const Places& places) : places_(places.begin(), places.end()) {
     for (std::size_t i = 0; i < places_.size(); ++i) cells_[cell_of(places_[i].x, places_[i].y)].push_back(i);
-    for (const auto& [cell, inside] : cells_) rings_ = std::max({rings_, std::abs(cell.first), std::abs(cell.second)});
   }
 
   bool any_received() const {
@@ -33,10 +32,10 @@ class RssiMap {
   // Of the place of the table that is nearest.
   double at(const roadmap::Point& p) const {
     const Cell middle = cell_of(p.x, p.y);
-    const double most = rings_ + std::max(std::abs(middle.first), std::abs(middle.second)) + 1;
     double best = std::numeric_limits<double>::infinity(), rssi = null();
     // In ring n no place is nearer than n - 1 edges of a cell.
-    for (double ring = 0; ring <= most && (ring - 1) * edge < best; ++ring) {
+    for (double ring = 0; (ring - 1) * edge < best; ++ring) {
+      if (4 * ring * ring > static_cast<double>(cells_.size())) return of_all(p);  // fewer than the rings have by now
       for (double x = -ring; x <= ring; ++x) {
         const double stride = std::abs(x) == ring || ring == 0 ? 1 : 2 * ring;
         for (double y = -ring; y <= ring; y += stride) {
@@ -75,9 +74,23 @@ class RssiMap {
   static constexpr double edge = 1;  // [m] of a cell of places
   static Cell cell_of(double x, double y) { return {std::floor(x / edge), std::floor(y / edge)}; }
 
+  // The same place as ring by ring, also of those equally far: the one of the inner ring, then by the order of cells.
+  double of_all(const roadmap::Point& p) const {
+    const Cell middle = cell_of(p.x, p.y);
+    double best = std::numeric_limits<double>::infinity(), inner = best, rssi = null();
+    for (const auto& [cell, inside] : cells_) {
+      const double ring = std::max(std::abs(cell.first - middle.first), std::abs(cell.second - middle.second));
+      if ((ring - 1) * edge >= best) continue;
+      for (const std::size_t i : inside) {
+        const double away = std::hypot(places_[i].x - p.x, places_[i].y - p.y);
+        if (away < best || (away == best && ring < inner)) best = away, inner = ring, rssi = places_[i].rssi;
+      }
+    }
+    return rssi;
+  }
+
   std::vector<RssiPlace> places_;
   std::map<Cell, std::vector<std::size_t>> cells_;
-  double rings_ = 0;  // cells from the origin to the farthest
 };
 
 }  // namespace muster

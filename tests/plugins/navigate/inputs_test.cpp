@@ -1,5 +1,6 @@
 // What control.navigate takes beside the roadmap, and what it refuses.
 #include "navigate_world.hpp"
+#include "plugins/controllers/rssi_map.hpp"
 #include "roadmap/plan.hpp"
 #include "roadmap/rows.hpp"
 #include "text/number.hpp"
@@ -53,6 +54,36 @@ TEST(NavigateInputs, TheCostIsLengthTimesWhatTheThresholdLacks) {
   run.step(), run.step();
   EXPECT_NEAR(state_of(run).length, 2, 1e-9);
   EXPECT_NEAR(state_of(run).cost, 6, 1e-9);
+}
+
+TEST(NavigateInputs, TheNearestPlaceIsFoundFromAnywhere) {
+  std::vector<RssiPlace> places;  // each with a level of its own
+  for (double x = 0; x < 20; x += 0.7)
+    for (double y = 0; y < 20; y += 0.7) places.push_back({x, y, static_cast<double>(places.size())});
+  const RssiMap map(places);
+  const auto away = [](const RssiPlace& place, const roadmap::Point& p) {
+    return std::hypot(place.x - p.x, place.y - p.y);
+  };
+  for (double x = -30; x < 50; x += 2.3) {
+    for (double y = -30; y < 50; y += 2.3) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const RssiPlace& place : places) nearest = std::min(nearest, away(place, {x, y}));
+      EXPECT_EQ(away(places[static_cast<std::size_t>(map.at({x, y}))], {x, y}), nearest) << x << ' ' << y;
+    }
+  }
+}
+
+// As where the table is of another plan, or in other units.
+TEST(NavigateInputs, ATableFarAwayIsLookedUpAtOnce) {
+  const std::vector<RssiPlace> places{{0.5, 0.5, -50}, {5.5, 0.5, -60}, {0.5, 5.5, -70}};
+  const RssiMap map(places);
+  for (const double far : {10.0, 1e4, 1e9}) {
+    EXPECT_EQ(map.at({-far, 0.5}), -50);
+    EXPECT_EQ(map.at({far, 0.5}), -60);
+    EXPECT_EQ(map.at({0.5, far}), -70);
+    EXPECT_EQ(map.at({far, far}), -70) << "of two that are equally far the first by x";
+  }
+  EXPECT_TRUE(is_null(RssiMap(std::vector<RssiPlace>()).at({1e9, 0})));
 }
 
 std::string table_of(const std::vector<roadmap::Row>& rows) {
