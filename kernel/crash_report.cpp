@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <initializer_list>
+#include <memory>
 #include <utility>
 
 #include "callback_watch.hpp"
@@ -19,6 +20,34 @@ bool reports = false;
 
 constexpr int plugin_fault = 3;  // the exit code
 constexpr std::initializer_list<int> crashes = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+constexpr std::size_t stack_bytes = 1 << 16;  // of a handler's own: the fault may be an overflow of the thread's
+
+void run_handlers_on(char* stack) {
+  stack_t alternate{};
+  alternate.ss_sp = stack;
+  alternate.ss_size = stack_bytes;
+  if (!stack) alternate.ss_flags = SS_DISABLE;
+  ::sigaltstack(&alternate, nullptr);
+}
+
+// A thread's stack for handlers, for the thread's life, unless it has one, such as a sanitizer's.
+class HandlerStack {
+ public:
+  HandlerStack() {
+    stack_t before{};
+    if (!reports || ::sigaltstack(nullptr, &before) != 0 || !(before.ss_flags & SS_DISABLE)) return;
+    memory_ = std::make_unique<char[]>(stack_bytes);
+    run_handlers_on(memory_.get());
+  }
+  ~HandlerStack() {
+    if (memory_) run_handlers_on(nullptr);
+  }
+  HandlerStack(const HandlerStack&) = delete;
+  HandlerStack& operator=(const HandlerStack&) = delete;
+
+ private:
+  std::unique_ptr<char[]> memory_;
+};
 
 // Only what is async-signal-safe (POSIX 2.4.3) may be called here: the line is put together without allocation.
 class Line {
@@ -73,6 +102,7 @@ const char* words_of_signal(int signal) {
 
 RunningCallback::RunningCallback(const char* title, const char* callback, int64_t tick, double time, bool may_wait)
     : title_(title), callback_(callback), tick_(tick), time_(time), may_wait_(may_wait), outer_(running) {
+  static thread_local const HandlerStack own;
   running = this;
   note();
 }
@@ -131,11 +161,8 @@ void tell_exit() {
 }  // namespace
 
 void report_crashes() {
-  static char stack[1 << 16];  // of its own: the fault may be an overflow of the thread's
-  stack_t alternate{};
-  alternate.ss_sp = stack;
-  alternate.ss_size = sizeof stack;
-  ::sigaltstack(&alternate, nullptr);
+  static char stack[stack_bytes];
+  run_handlers_on(stack);
   if (!std::exchange(reports, true)) {
     std::atexit(tell_exit);
     std::at_quick_exit(tell_exit);

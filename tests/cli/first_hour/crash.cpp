@@ -1,5 +1,5 @@
 // Ends the process in its third step: by a null pointer, on the run's thread, on all of its workers or on a thread of
-// its own, or by exit() and its like. Or tells more than anybody reads.
+// its own, by an overflow of a worker's stack, or by exit() and its like. Or tells more than anybody reads.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ struct Crash {
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
       flag("parallel", false, "on the run's threads"),
-      choice("how", "segfault|exit|quick_exit|thread|tells|_exit|_Exit|child", "what it does")};
+      choice("how", "segfault|exit|quick_exit|thread|tells|_exit|_Exit|child|overflow", "what it does")};
 
   explicit Crash(Setup& s) : parallel(s.value("parallel")), how(s.value("how")), cell(s.write<Cell>("self/cell")) {}
 
@@ -36,6 +36,7 @@ struct Crash {
     if (k[how] == 5) ::_exit(0);
     if (k[how] == 6) std::_Exit(0);
     if (k[how] == 7) return wait_for_child();
+    if (k[how] == 8) return overflow_worker(k);
     if (k[parallel] == 0) *nowhere = 1;
     each(k, 8, [](std::size_t) { *nowhere = 1; });
   }
@@ -46,6 +47,21 @@ struct Crash {
     if (child == 0) ::_exit(5);
     int status = 0;
     if (::waitpid(child, &status, 0) != child || WEXITSTATUS(status) != 5) throw std::runtime_error("the child's code");
+  }
+
+  // The stack of a worker's thread, for which the run's own waits a while.
+  static void overflow_worker(const Step& k) {
+    const auto run = std::this_thread::get_id();
+    each(k, 8, [run](std::size_t) {
+      if (std::this_thread::get_id() != run) go_deeper(0);
+      for (int i = 0; i < 1'000'000; ++i) std::this_thread::yield();
+    });
+  }
+  static int go_deeper(int depth) {
+    volatile char frame[1024];
+    frame[0] = static_cast<char>(depth);
+    const int below = nowhere ? 0 : go_deeper(depth + 1);
+    return below + frame[0];  // looked at afterwards, so that each call keeps its frame
   }
 
   struct Cell {

@@ -27,6 +27,10 @@ TEST(Crash, OfAStepNamesThePluginAndTheTick) {
   const auto parallel = crashed("parallel=\"true\"", "2");
   EXPECT_EQ(parallel.exit, 128 + 11);
   EXPECT_THAT(parallel.err, testing::StartsWith(line));  // two threads may crash at once
+  // Of the very stack that a handler runs on by default.
+  const auto overflow = crashed("how=\"overflow\"", "2");
+  EXPECT_EQ(overflow.exit, 128 + 11);
+  EXPECT_EQ(overflow.err, line);
 }
 
 TEST(Crash, ExitOfAPluginIsItsFault) {
