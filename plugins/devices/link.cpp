@@ -44,7 +44,8 @@ void ControllerEnd::say_bye(double now) {
 
 void ControllerEnd::receive(double now, const TakeRows& rows) {
   Address from;
-  for (std::string bytes; wire_.receive(from, bytes);) {
+  std::string bytes;
+  for (std::size_t left = most_at_once; left > 0 && wire_.receive(from, bytes); --left) {
     if (!(from == robot_)) {
       ++refused_.foreign;
       continue;
@@ -157,7 +158,8 @@ void RobotEnd::meet(double now, double watchdog, const Address& from, const Data
 
 void RobotEnd::receive(double now, double watchdog, const TakeRows& rows) {
   Address from;
-  for (std::string bytes; wire_.receive(from, bytes);) {
+  std::string bytes;
+  for (std::size_t left = most_at_once; left > 0 && wire_.receive(from, bytes); --left) {
     try {
       const Datagram datagram = parsed_datagram(bytes);
       if (datagram.kind == Kind::join) {

@@ -27,7 +27,8 @@ class ControllerEnd {
   ControllerEnd(Wire& wire, const Address& robot, std::vector<TableShape> shapes, std::uint64_t session)
       : wire_(wire), robot_(robot), shapes_(std::move(shapes)), session_(session) {}
 
-  // Takes what has come until now. Throws BadInput where the robot exchanges other tables, or refuses this end.
+  // Takes what has come until now, most_at_once datagrams at most. Throws BadInput where the robot exchanges other
+  // tables, or refuses this end.
   void receive(double now, const TakeRows& take);
   // Asks the robot to speak, as long as it has not agreed or is silent.
   void ask(double now);
@@ -65,7 +66,8 @@ class RobotEnd {
   RobotEnd(Wire& wire, std::vector<TableShape> shapes, std::uint64_t session)
       : wire_(wire), shapes_(std::move(shapes)), session_(session) {}
 
-  // Takes what has come. `watchdog` [s]: a controller that was silent for longer may be followed by another one.
+  // Takes what has come, most_at_once datagrams at most. `watchdog` [s]: a controller that was silent for longer may be
+  // followed by another one.
   void receive(double now, double watchdog, const TakeRows& take);
   // What the robot senses: rows of each table that it gives. Nothing is sent where no controller is there.
   void tell(double now, const std::string& rows);

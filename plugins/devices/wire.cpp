@@ -74,6 +74,11 @@ bool UdpSocket::receive(Address& from, std::string& bytes) {
 
 void RoughWire::at(double now) {
   now_ = now;
+  left_ = most_at_once;
+  send_due();
+}
+
+void RoughWire::send_due() {
   for (Underway due; take(out_, now_, due);) inner_.send(due.other, due.bytes);
 }
 
@@ -94,11 +99,11 @@ bool RoughWire::take(std::vector<Underway>& from, double now, Underway& taken) {
 
 void RoughWire::send(const Address& to, const std::string& bytes) {
   put(out_, to, bytes);
-  at(now_);
+  send_due();
 }
 
 bool RoughWire::receive(Address& from, std::string& bytes) {
-  while (inner_.receive(from, bytes)) put(in_, from, bytes);
+  for (; left_ > 0 && inner_.receive(from, bytes); --left_) put(in_, from, bytes);
   Underway due;
   if (!take(in_, now_, due)) return false;
   from = due.other;

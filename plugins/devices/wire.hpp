@@ -17,6 +17,10 @@ struct Address {
 // "127.0.0.1" and a port. Throws BadInput where the text is no IPv4 address.
 Address address_of(const std::string& host, std::uint16_t port);
 
+// Datagrams that are taken in one tick: more than a socket's buffer holds unless somebody has enlarged it, so that all
+// of before are taken, and whoever sends on and on does not keep the run from its next tick.
+constexpr std::size_t most_at_once = 4096;
+
 class Wire {
  public:
   virtual ~Wire() = default;
@@ -62,6 +66,7 @@ class RoughWire : public Wire {
     Address other;
     std::string bytes;
   };
+  void send_due();
   void put(std::vector<Underway>& to, const Address& other, const std::string& bytes);
   static bool take(std::vector<Underway>& from, double now, Underway& taken);
 
@@ -70,6 +75,7 @@ class RoughWire : public Wire {
   Stream random_;
   double now_ = 0;
   std::uint64_t count_ = 0;
+  std::size_t left_ = most_at_once;  // to be taken from the inner wire now
   std::vector<Underway> out_, in_;
 };
 

@@ -148,6 +148,36 @@ TEST(MalformedDatagrams, ListsOfTablesThatAreNoneMoveNothing) {
   EXPECT_EQ(robot.from_controller().session(), 9u);
 }
 
+// Somebody who sends faster than they are read.
+struct Flood : Wire {
+  void send(const Address&, const std::string&) override {}
+  bool receive(Address& from, std::string& bytes) override {
+    from = {1, 1};
+    bytes = "none";
+    return ++read < 5 * most_at_once;
+  }
+  std::size_t read = 0;
+};
+
+TEST(MalformedDatagrams, ThatComeOnAndOnLetATickEnd) {
+  const auto nothing = [](std::string_view) {};
+  Flood at_controller, at_robot, at_rough;
+  ControllerEnd controller(at_controller, {1, 1}, exchanged, 9);
+  RobotEnd robot(at_robot, exchanged, 5);
+  RoughWire rough(at_rough, {1, 0, 0}, Stream(1));  // loses all
+  Address from;
+  std::string bytes;
+  for (std::size_t tick = 1; tick <= 2; ++tick) {
+    controller.receive(0, nothing);
+    EXPECT_EQ(controller.refused().malformed, tick * most_at_once);
+    robot.receive(0, 0.5, nothing);
+    EXPECT_EQ(robot.refused().malformed, tick * most_at_once);
+    rough.at(0);
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(rough.receive(from, bytes));
+    EXPECT_EQ(at_rough.read, tick * most_at_once);
+  }
+}
+
 // Rows that are none are refused by whoever takes them: the datagram is counted, and nothing is heard.
 TEST(MalformedDatagrams, RowsThatAreNoneCountToo) {
   Given wire;
