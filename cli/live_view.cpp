@@ -95,6 +95,7 @@ void LiveView::watch(Simulation& run, Record record) {
   run_ = &run;
   record_ = std::move(record);
   steps_ = 0;
+  end_step("the run was reset meanwhile");
   wants_anew_ = is_over_ = has_all_ = false;
   interfaces_.forget_spawned();
   foxglove_.restart();
@@ -170,6 +171,7 @@ void LiveView::set_state(live::RunState state, Done done) {
   if (state == live::RunState::stopped) {
     is_begun_ = is_paused_ = false;
     is_stopped_ = wants_anew_ = true;
+    if (anew_done_) std::exchange(anew_done_, {})("the run was stopped meanwhile");
     anew_done_ = std::move(done);
     return changed();
   }

@@ -90,6 +90,23 @@ async function check_reset() {
   for (const [topic, messages] of log.by_topic) expect_same(client.by_topic.get(topic).slice(-messages.length), messages, `${topic} after a reset`);
 }
 
+/** Whoever waits for steps is answered where the run is made anew on the way, and the next steps are done. */
+async function check_reset_of_steps() {
+  const run = await watched(world, '--until', '4000', '--paused'), {address} = run;
+  for (const [verb, request] of [['ResetSimulation', {}], ['SetSimulationState', {state: {state: STOPPED}}]]) {
+    const steps = call(address, 'StepSimulation', {steps: 199_000});
+    await until(async () => await tick(address) > 0, 'the steps are under way');
+    await expect_code(address, verb, request, OK);
+    if (verb !== 'ResetSimulation') await expect_code(address, 'SetSimulationState', {state: {state: PAUSED}}, OK);
+    await expect_code(address, 'StepSimulation', {steps: 5}, OK);
+    expect_equal(await tick(address), 5, `ticks after ${verb} and five steps`);
+    const {result} = await steps;
+    expect(result.result === OPERATION_FAILED && /was reset meanwhile/.test(result.error_message), `steps and ${verb} give ${JSON.stringify(result)}`);
+    await expect_code(address, 'ResetSimulation', {}, OK);
+  }
+  await quit(run);
+}
+
 /** A pose that is set: it stands at once, the robot goes on from it, and the same calls give the same run. */
 async function check_poses() {
   const outcomes = [];
@@ -246,6 +263,7 @@ async function check_boxes() {
 
 await check_states();
 await check_reset();
+await check_reset_of_steps();
 await check_poses();
 await check_entities();
 await check_boxes();
