@@ -134,6 +134,7 @@ int main(int argc, char** argv) {
   watch_callbacks();
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond `ulimit -f` is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of writing, not a silent end
+  std::signal(SIGCHLD, SIG_DFL);  // whoever started this may ignore it: then nobody is told how a child has ended
   int code = 0;
   try {
     code = run({argv + 1, argv + argc});

@@ -65,7 +65,10 @@ Exit in_processes(int count, const std::function<Exit()>& work, const std::funct
   while (!children.empty()) {
     for (std::size_t i = children.size(); i-- > 0;) {
       int status = 0;
-      if (::waitpid(children[i], &status, WNOHANG) != children[i]) continue;
+      const pid_t ended = ::waitpid(children[i], &status, WNOHANG);
+      if (ended < 0 && errno != EINTR)
+        throw Error(Exit::internal, "how a worker has ended is not known: " + system_message(errno));
+      if (ended != children[i]) continue;
       children.erase(children.begin() + static_cast<std::ptrdiff_t>(i));
       const Exit code = code_of(status);
       if (result == Exit::done) result = code;

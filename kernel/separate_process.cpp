@@ -121,7 +121,12 @@ std::string SeparateProcess::call(milliseconds limit) {
   gate().called.grow();
   for (milliseconds most{1}; !gate().answered.wait(before, most); most = std::min(2 * most, milliseconds(20))) {
     int status = 0;
-    if (::waitpid(child_, &status, WNOHANG) == child_) return how_it_ended(status);
+    const pid_t ended = ::waitpid(child_, &status, WNOHANG);
+    if (ended == child_) return how_it_ended(status);
+    if (ended < 0 && errno == ECHILD) {  // where SIGCHLD is ignored, nobody is told how
+      child_ = 0;
+      return "has ended";
+    }
     if (Clock::now() - began < limit) continue;
     ::kill(child_, SIGKILL);
     while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;

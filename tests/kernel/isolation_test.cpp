@@ -272,5 +272,13 @@ TEST(SeparateProcess, ServesCallsUntilItEnds) {
   EXPECT_EQ(ends.call(10s), "has ended");
 }
 
+TEST(SeparateProcess, EndsAlsoWhereItsEndIsIgnored) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  SeparateProcess ends(8, [](std::byte*) { ::_exit(3); });
+  EXPECT_EQ(ends.call(10s), "has ended");
+  EXPECT_EQ(ends.call(10s), "has ended");
+  std::signal(SIGCHLD, before);
+}
+
 }  // namespace
 }  // namespace muster

@@ -105,6 +105,17 @@ TEST(Sweep, HoweverItIsSharedTheTableIsTheSame) {
   EXPECT_EQ(folder.ask("shares", "SELECT max(begun) FROM job"), 1);
 }
 
+// Some supervisors start programs so.
+TEST(Sweep, EndsWhereTheEndsOfChildrenAreIgnored) {
+  const SweepFolder folder;
+  folder.write_sweep();
+  Surroundings around;
+  around.wrapper = {"env", "--ignore-signal=CHLD"};
+  const auto outcome = folder.sweep({"plan.xml", "--out", "out", "--jobs", "2"}, around);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(folder.ask("out", "SELECT count(*) FROM run"), 12);
+}
+
 TEST(Sweep, AShareDoesItsOwnRunsAlone) {
   const SweepFolder folder;
   folder.write_sweep();
