@@ -1,6 +1,5 @@
 #include "writer.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 #include <utility>
 
 #include "text/error.hpp"
-#include "text/text_file.hpp"
+#include "text/whole_file.hpp"
 
 namespace muster::mcap {
 namespace {
@@ -23,7 +22,7 @@ std::filesystem::path temporary_name(const std::filesystem::path& path) { return
 
 Writer::Writer(const std::filesystem::path& path, const Header& header, std::filesystem::path temporary)
     : path_(path), part_(std::move(temporary)) {
-  fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  fd_ = open_part(part_, IfHeld::fails);
   if (fd_ < 0) fail_system();
   std::string begin(magic);
   put_record(begin, header);
@@ -31,13 +30,13 @@ Writer::Writer(const std::filesystem::path& path, const Header& header, std::fil
 }
 
 Writer::~Writer() {
-  if (fd_ >= 0) ::close(fd_);
+  if (fd_ >= 0) close_part(fd_);
 }
 
 void Writer::discard() {
   if (fd_ < 0) return;
-  ::close(std::exchange(fd_, -1));
   ::unlink(part_.c_str());
+  close_part(std::exchange(fd_, -1));
 }
 
 std::uint16_t Writer::schema(Schema schema) {
@@ -225,23 +224,17 @@ std::uint64_t Writer::close() {
   write(end);
   put_summary();
   if (::fsync(fd_) != 0 && errno != EINVAL) fail_system();
-  if (::close(std::exchange(fd_, -1)) != 0 || ::rename(part_.c_str(), path_.c_str()) != 0) fail_system();
+  if (::rename(part_.c_str(), path_.c_str()) != 0) fail_system();
+  close_part(std::exchange(fd_, -1));
   return written_;
 }
 
 void Writer::write(std::string_view bytes) {
   crc_ = crc32(crc_, bytes);
   written_ += bytes.size();
-  while (!bytes.empty()) {
-    const ::ssize_t done = ::write(fd_, bytes.data(), bytes.size());
-    if (done < 0 && errno == EINTR) continue;
-    if (done < 0) fail_system();
-    bytes.remove_prefix(static_cast<std::size_t>(done));
-  }
+  if (!write_all(fd_, bytes)) fail_system();
 }
 
-void Writer::fail_system() const {
-  throw Error(Exit::io, {path_.string()}, "cannot be written: " + system_message(errno));
-}
+void Writer::fail_system() const { throw Error(Exit::io, {path_.string()}, why_unwritten(errno)); }
 
 }  // namespace muster::mcap

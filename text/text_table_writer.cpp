@@ -27,7 +27,7 @@ bool needs_quotes(std::string_view text) {
 TextTableWriter::TextTableWriter(const std::filesystem::path& path, const std::vector<TextColumn>& columns,
                                  Unfinished unfinished)
     : path_(path), part_(path.string() + ".part"), unfinished_(unfinished), width_(columns.size()) {
-  fd_ = open_part(path_);
+  fd_ = open_part(part_, IfHeld::fails);
   if (fd_ < 0) fail_system();
   for (const TextColumn& column : columns) text(column.label());
   end_row();
@@ -35,8 +35,8 @@ TextTableWriter::TextTableWriter(const std::filesystem::path& path, const std::v
 
 TextTableWriter::~TextTableWriter() {
   if (fd_ < 0) return;
-  ::close(fd_);
   if (unfinished_ == Unfinished::removed || is_empty_) ::unlink(part_.c_str());
+  close_part(fd_);
 }
 
 void TextTableWriter::real(double value) {
@@ -87,19 +87,18 @@ void TextTableWriter::close(const std::function<void(const std::filesystem::path
   flush();
   if (::fsync(fd_) != 0) fail_system();
   if (check) check(part_);
-  const int fd = std::exchange(fd_, -1);
-  if (::close(fd) != 0 || ::rename(part_.c_str(), path_.c_str()) != 0) {
-    const int reason = errno;
-    ::unlink(part_.c_str());
-    errno = reason;
-    fail_system();
-  }
+  const bool is_named = ::rename(part_.c_str(), path_.c_str()) == 0;
+  const int reason = errno;
+  if (!is_named) ::unlink(part_.c_str());
+  close_part(std::exchange(fd_, -1));
+  errno = reason;
+  if (!is_named) fail_system();
 }
 
 void TextTableWriter::fail_system() const {
   throw Error(
       Exit::io, Place{path_.string()},
-      "cannot be written: " + system_message(errno) +
+      why_unwritten(errno) +
           (fd_ >= 0 && unfinished_ == Unfinished::kept ? "; what was written until then is in " + part_.string() : ""));
 }
 

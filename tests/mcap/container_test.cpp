@@ -77,6 +77,29 @@ TEST(Mcap, WhatStandsIsInEveryCut) {
   EXPECT_EQ(read.messages[1].sequence, 4u);
 }
 
+// Two runs into one file: the second is refused before its first record, and the first is whole.
+TEST(Mcap, OneAtATimeWritesAFile) {
+  const Folder folder;
+  const auto file = folder / "a.mcap";
+  mcap::Writer first(file, {"test", "first"});
+  const auto channel = first.channel({0, 0, "/here", "", {}});
+  first.message({channel, 0, 0, 0, "before"});
+  first.flush();
+  try {
+    mcap::Writer second(file, {"test", "second"});
+    ADD_FAILURE() << "it was not refused";
+  } catch (const Error& refused) {
+    EXPECT_EQ(refused.exit(), Exit::io);
+    EXPECT_EQ(folder.inside(refused.what()), "a.mcap: is written by another run at this time; expected another file");
+  }
+  first.message({channel, 1, 1, 1, "after"});
+  first.close();
+  Collected read;
+  EXPECT_TRUE(mcap::scan(file, read, Damage::refused).is_whole);
+  EXPECT_EQ(read.messages.size(), 2u);
+  EXPECT_NO_THROW(mcap::Writer(file, {"test", "third"}).close());
+}
+
 TEST(Mcap, AFileIsRewrittenOntoItself) {
   const Folder folder;
   const auto written = write_log(folder / "a.mcap", 100);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
 #include "tests/folder.hpp"
 #include "text/error.hpp"
@@ -49,6 +50,29 @@ TEST(WholeFile, LeavesTheOldOneWhereItFails) {
   fails(folder.path() / "a", "Is a directory");
   fails(folder.path() / "none" / "a", "No such file or directory");
   EXPECT_FALSE(fs::exists(folder.path() / "a.part"));
+}
+
+TEST(WholeFile, IsWrittenByOneAtATime) {
+  const test::Folder folder;
+  const fs::path file = folder.path() / "a", part = folder.path() / "a.part";
+  const int first = open_part(part, IfHeld::fails);
+  ASSERT_GE(first, 0);
+  ASSERT_TRUE(write_all(first, "first"));
+  EXPECT_LT(open_part(part, IfHeld::fails), 0);
+  EXPECT_EQ(errno, EWOULDBLOCK);
+  EXPECT_EQ(why_unwritten(errno), "is written by another run at this time; expected another file");
+  EXPECT_EQ(folder.read("a.part"), "first");
+  // Whoever waits meanwhile begins a file of its own, and does not empty the one that is whole.
+  std::thread second([&] { write_whole(file, "second"); });
+  fs::rename(part, file);
+  std::ifstream reader(file);
+  close_part(first);
+  second.join();
+  std::string seen;
+  reader >> seen;
+  EXPECT_THAT(seen, testing::AnyOf("first", "second"));  // the other may have been done before
+  EXPECT_EQ(folder.read("a"), "second");
+  EXPECT_FALSE(fs::exists(part));
 }
 
 TEST(WholeFile, SaysThatADiskIsFull) {
