@@ -40,16 +40,6 @@ std::string date_of_now() {
   return text;
 }
 
-void add_robots(const World& world, bundle::WorldFiles& files) {
-  for (const RowDeclaration& row : world.rows) {
-    const auto text = [&](const char* name) {
-      const auto found = world.texts.find(row.set + '/' + row.name + '/' + name);
-      return found == world.texts.end() ? std::string() : found->second;
-    };
-    if (row.set == "robot") files.add_robot(text("model"), text("packages"), text("fittings"));
-  }
-}
-
 // Plugins and the files that they read where the world does not say which.
 class BundledPlugins {
  public:
@@ -59,12 +49,7 @@ class BundledPlugins {
     if (library.file().empty()) return;  // of the program itself
     if (!files_.has(library.file())) files_.add_plugin(library.file());
     libraries_[plugin.id] = fs::absolute(library.file()).lexically_normal();
-    for (uint32_t i = 0; i < plugin.param_count; ++i) {
-      const muster_param& param = plugin.params[i];
-      if (param.kind != MUSTER_FILE || !param.text || !*param.text || declared.attribute(param.name)) continue;
-      const fs::path file = fs::absolute(files_.folder() / param.text);
-      if (fs::is_regular_file(file)) files_.add_data(file);
-    }
+    add_default_files(plugin, declared, files_);
   }
   void add(const Simulation& run, const Library::SearchPath& plugins) {
     for (const auto& instance : run.instances()) add(*instance->library(), instance->plugin(), instance->declared());

@@ -1,6 +1,7 @@
 #include "bundle_run.hpp"
 
 #include <bit>
+#include <filesystem>
 #include <muster/random.hpp>
 
 #include "run_options.hpp"
@@ -24,6 +25,12 @@ bundle::Waymark waymark_of(const Simulation& run) {
   return result;
 }
 
+void add_named_file(const std::string& named, bundle::WorldFiles& files) {
+  const std::filesystem::path file = files.folder() / named;
+  std::error_code none;
+  if (!named.empty() && std::filesystem::is_regular_file(file, none) && !files.has(file)) files.add_data(file);
+}
+
 }  // namespace
 
 std::vector<bundle::Waymark> waymarks_of(Simulation& run, const std::string& title) {
@@ -36,6 +43,30 @@ std::vector<bundle::Waymark> waymarks_of(Simulation& run, const std::string& tit
     progress.at(static_cast<double>(run.tick()) / static_cast<double>(run.world().ticks));
   }
   return result;
+}
+
+void add_robots(const World& world, bundle::WorldFiles& files) {
+  for (const RowDeclaration& row : world.rows) {
+    const auto text = [&](const char* name) {
+      const auto found = world.texts.find(row.set + '/' + row.name + '/' + name);
+      return found == world.texts.end() ? std::string() : found->second;
+    };
+    if (row.set == "robot") files.add_robot(text("model"), text("packages"), text("fittings"));
+  }
+}
+
+void add_default_files(const muster_plugin& plugin, const InstanceDeclaration& declared, bundle::WorldFiles& files) {
+  for (uint32_t i = 0; i < plugin.param_count; ++i) {
+    const muster_param& param = plugin.params[i];
+    if (param.kind == MUSTER_FILE && param.text && !declared.attribute(param.name)) add_named_file(param.text, files);
+  }
+}
+
+void add_files_of_instances(const Simulation& run, bundle::WorldFiles& files) {
+  for (const auto& instance : run.instances()) {
+    for (const XmlAttribute& given : instance->declared().attributes) add_named_file(given.value, files);
+    add_default_files(instance->plugin(), instance->declared(), files);
+  }
 }
 
 }  // namespace muster::cli

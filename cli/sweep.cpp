@@ -121,7 +121,7 @@ class Sweep {
     sweep::JobTable table(words_.out);
     if (!table.is_filled()) {
       if (!checked) checked = runs.check();
-      table.fill(sources_of(file_, checked->libraries, plugins_), checked->metrics, file_.combinations(), file_.seeds);
+      table.fill(sources_of(file_, *checked, plugins_), checked->metrics, file_.combinations(), file_.seeds);
     }
     // Of what was filled before, or by another meanwhile.
     expect_unchanged(table.sources(), file_, plugins_, words_.out);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "bundle_run.hpp"
 #include "exchange.hpp"
 #include "run_options.hpp"
 #include "text/names.hpp"
@@ -165,6 +166,10 @@ SweepRuns::Checked SweepRuns::check() {
     const auto alike = [](const auto& a, const auto& b) { return a.name == b.name && a.unit == b.unit; };
     if (!std::equal(metrics.begin(), metrics.end(), result.metrics.begin(), result.metrics.end(), alike))
       throw invalid({file_.file.string()}, "the worlds differ in what can be measured; expected <metric of=\"...\"/>");
+    const World& world = run->world();
+    const auto [read, is_new] = result.worlds.try_emplace(world.file, world.file, plugins_);
+    if (is_new) add_robots(world, read->second);
+    add_files_of_instances(*run, read->second);
     for (const auto& instance : run->instances()) libraries.insert(instance->library()->file());
     for (const Occasion& occasion : run->world().occasions) {
       for (const PluginChange& change : occasion.plugins) {

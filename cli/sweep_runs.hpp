@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bundle/world_files.hpp"
 #include "kernel/simulation.hpp"
 #include "run_metrics.hpp"
 #include "sweep/job_table.hpp"
@@ -21,7 +22,8 @@ class SweepRuns {
 
   struct Checked {
     std::vector<sweep::MetricTitle> metrics;
-    std::vector<std::filesystem::path> libraries;  // of plugins, sorted
+    std::vector<std::filesystem::path> libraries;                // of plugins, sorted
+    std::map<std::filesystem::path, bundle::WorldFiles> worlds;  // by their files as given: all that each reads
   };
   // Makes each combination once, up to its first tick: what is wrong with any of them is told before the first run.
   // Throws Error.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <muster/random.hpp>
 #include <set>
@@ -19,22 +18,28 @@ namespace fs = std::filesystem;
 
 const std::string own_file = "sweep", program = "program", plugin = "plugin ";  // names of sources that are no paths
 
-// The file, and what its attributes name beside it; so on from XML to XML.
-void add_named(const fs::path& file, std::set<fs::path>& found) {
-  if (!found.insert(file.lexically_normal()).second) return;
-  static const std::set<std::string> readable{".xml", ".urdf"};
-  if (!readable.count(file.extension().string())) return;
-  const std::function<void(const XmlElement&)> look = [&](const XmlElement& element) {
-    for (const XmlAttribute& given : element.attributes) {
-      std::error_code none;
-      const fs::path named = file.parent_path() / given.value;
-      if (!given.value.empty() && fs::is_regular_file(named, none)) add_named(named, found);
-    }
-    for (const XmlElement& child : element.children) look(child);
+// Whether the sweep names the world by an absolute path: its files are then the same wherever the sweep's lies.
+bool is_absolute(const fs::path& world, const sweep::SweepFile& file) {
+  const auto names_it = [&](const sweep::Word& word) {
+    const fs::path given(word.text);
+    return given.is_absolute() && (world == given || world == given / "world.xml");
   };
-  try {
-    look(read_xml(file));
-  } catch (const Error&) {  // whoever reads it tells
+  return names_it(file.world) || std::any_of(file.varied.begin(), file.varied.end(), [&](const auto& each) {
+           return each.kind == sweep::Variation::Kind::world &&
+                  std::any_of(each.values.begin(), each.values.end(), names_it);
+         });
+}
+
+// All that a world reads.
+void add_files(const fs::path& world, const bundle::WorldFiles& read, const sweep::SweepFile& file,
+               std::set<std::string>& names) {
+  static const std::string of_plugins = "plugins/";  // the folder of a bundle
+  const fs::path folder = fs::absolute(file.beside(".")).lexically_normal();
+  for (const auto& [name, each] : read.files()) {
+    if (name.starts_with(of_plugins))
+      names.insert(plugin + name.substr(of_plugins.size()));
+    else
+      names.insert((is_absolute(world, file) ? each.source : each.source.lexically_relative(folder)).string());
   }
 }
 
@@ -62,19 +67,12 @@ std::string digest_of(const fs::path& file) {
   return hexadecimal(key_of(bytes));
 }
 
-sweep::Sources sources_of(const sweep::SweepFile& file, const std::vector<fs::path>& libraries,
+sweep::Sources sources_of(const sweep::SweepFile& file, const SweepRuns::Checked& checked,
                           const Library::SearchPath& plugins) {
   std::set<fs::path> files;
-  const auto add_world = [&](const sweep::Word& world) {
-    const fs::path path = file.beside(world.text);
-    add_named(fs::is_directory(path) ? path / "world.xml" : path, files);
-  };
-  if (!file.world.text.empty()) add_world(file.world);
-  for (const sweep::Variation& each : file.varied) {
-    if (each.kind == sweep::Variation::Kind::world) std::for_each(each.values.begin(), each.values.end(), add_world);
-  }
   std::set<std::string> names{own_file, program};
-  for (const fs::path& library : libraries) {
+  for (const auto& [world, read] : checked.worlds) add_files(world, read, file, names);
+  for (const fs::path& library : checked.libraries) {
     const std::string name = library.filename().string();
     std::error_code none;
     if (fs::equivalent(on_path(name, plugins), library, none))

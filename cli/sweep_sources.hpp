@@ -8,14 +8,15 @@
 #include "loader/library.hpp"
 #include "sweep/job_table.hpp"
 #include "sweep/sweep_file.hpp"
+#include "sweep_runs.hpp"
 
 namespace muster::cli {
 
 // Of a file's bytes, in hexadecimal digits; empty where it cannot be read.
 std::string digest_of(const std::filesystem::path& file);
 
-// `libraries`: of all plugins that any run uses.
-sweep::Sources sources_of(const sweep::SweepFile& file, const std::vector<std::filesystem::path>& libraries,
+// Of all runs that were checked.
+sweep::Sources sources_of(const sweep::SweepFile& file, const SweepRuns::Checked& checked,
                           const Library::SearchPath& plugins);
 
 // Throws Error where one of them is another now than it was when the table in that folder was begun.

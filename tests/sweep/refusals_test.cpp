@@ -102,6 +102,31 @@ TEST(SweepRefusals, OfWhatHasChangedSince) {
   EXPECT_EQ(folder.sweep({"plan.xml", "--out", "out"}).exit, 0);
 }
 
+// A model is found by its name alone, and an exchanged plugin's file by the sweep's own attribute.
+TEST(SweepRefusals, OfFilesThatTheWorldDoesNotNameThatHaveChangedSince) {
+  const SweepFolder folder;
+  std::string world = folder.read("world.xml");
+  folder.write("world.xml", world.replace(world.find("at=\"30 3 0\""), 0, "model=\"mine\" "));
+  folder.write("models/mine.urdf", contents(MUSTER_PLUGINS_DIR "/models/scarab.urdf"));
+  folder.write("other.csv", "x[m],y[m]\n0,100\n");
+  folder.write("plan.xml",
+               "<sweep world=\"world.xml\" seeds=\"1\"><vary instance=\"steer\" "
+               "plugins=\"control.waypoint control.waypoint:path=other.csv\"/></sweep>");
+  const auto first = folder.sweep({"plan.xml", "--out", "out"});
+  ASSERT_EQ(first.exit, 0) << first.err;
+  for (const char* file : {"models/mine.urdf", "other.csv"}) {
+    const std::string text = folder.read(file);
+    folder.write(file, text + '\n');
+    expect_error(
+        folder.sweep({"plan.xml", "--out", "out"}), 2,
+        std::string(file) +
+            " is not what it was when the runs in out were begun; expected another folder (--out), so that runs "
+            "of both are not mixed");
+    folder.write(file, text);
+  }
+  EXPECT_EQ(folder.sweep({"plan.xml", "--out", "out"}).exit, 0);
+}
+
 TEST(SweepRefusals, OfAPluginThatHasChangedSince) {
   const SweepFolder folder;
   folder.write_sweep();
