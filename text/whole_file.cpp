@@ -6,10 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <string>
-#include <thread>
 
 #include "error.hpp"
 #include "text_file.hpp"
@@ -27,13 +25,10 @@ bool is_called(int descriptor, const std::filesystem::path& name) {
 
 // False with errno set where another holds it.
 bool take(int descriptor, IfHeld if_held) {
-  constexpr int most_looks = 1000;
-  constexpr std::chrono::milliseconds between{10};
-  for (int looks = 1; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;) {
+  const int how = if_held == IfHeld::fails ? LOCK_EX | LOCK_NB : LOCK_EX;
+  while (::flock(descriptor, how) != 0) {
     if (errno == EINTR) continue;
-    if (errno != EWOULDBLOCK) return true;
-    if (if_held == IfHeld::fails || looks++ == most_looks) return false;
-    std::this_thread::sleep_for(between);
+    return errno != EWOULDBLOCK;  // a file system without locks has none to hold
   }
   return true;
 }

@@ -7,7 +7,7 @@
 
 namespace muster {
 
-// What is done where another process writes a temporary file of that name; it waits for 10 s at most.
+// What is done where another process writes a temporary file of that name; one that waits does so until it is whole.
 enum class IfHeld { waits, fails };
 
 // Opens a temporary file for writing, empty and a file of its own: a link of that name is taken away, not followed. No

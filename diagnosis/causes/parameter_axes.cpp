@@ -14,7 +14,8 @@ using std::numbers::pi;
 
 // Periods of oscillations, evenly spaced in cycles over the data, from two cycles to periods of some rows.
 std::vector<double> periods(double span) {
-  const double most = std::clamp(span / thresholds::shortest_period, 24.0, thresholds::most_cycles);
+  const double most =
+      std::clamp(span / thresholds::shortest_period, thresholds::fewest_cycles, thresholds::most_cycles);
   std::vector<double> result;
   for (double cycles = 2; cycles < most; cycles += cycles < 24 ? 0.4 : 0.7) result.push_back(span / cycles);
   return result;

@@ -14,6 +14,9 @@ inline constexpr double least_concern = 0.01;
 inline constexpr double least_left = 1e-6;
 // cycles; of a swing, over the data; chosen; CauseShape.SwingsOfManyCyclesAreSought
 inline constexpr double most_cycles = 128;
+// cycles; of a swing, over the data, up to which it is sought however short the data are; chosen;
+// CauseShape.SwingsOfManyCyclesAreSought
+inline constexpr double fewest_cycles = 32;
 // s; shortest period of a swing, unless the data are short; chosen; none
 inline constexpr double shortest_period = 4;
 // share; of the data before which a jump is an offset; chosen; FieldLog.AStepIsNamedNearTheEndOfALog

@@ -20,6 +20,8 @@ inline constexpr double prior_decorrelation_spread = 0.7;
 inline constexpr double prior_logit_shared = -1.5;
 // logit; prior standard deviation of that share; chosen; none
 inline constexpr double prior_shared_spread = 1.5;
+// ln variance; of the field or of one reading, unless readings are known to be as exact; chosen; none
+inline constexpr double log_least_variance = -3;
 // 1; least curvature in any direction, which bounds the standard deviation of theta by about two; chosen; none
 inline constexpr double least_curvature = 0.3;
 // 1; a fit is given up whose value stays too high even if it falls by that many times the expected gain; chosen;

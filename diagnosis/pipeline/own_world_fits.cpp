@@ -238,7 +238,33 @@ InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance
     const Hypothesis here = world.hypothesis;
     world = linearised(here);
   }
+  stepped(world, rows, whitener);
   return sd;
+}
+
+// A likelihood has steps where a link begins to cross a wall, over which no slope leads: a plan that is 3 cm off leaves
+// a few readings a whole wall off, which are outliers where nothing else scatters readings.
+void OwnWorldFits::stepped(OwnWorld& world, const noise::Rows& rows, const noise::Whitener& whitener) {
+  constexpr double reach = 0.25, step = 0.03;  // m
+  const noise::Whitened base =
+      noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), s_.options.prior);
+  set(world.values);
+  Supposed supposed(s_.model, world.hypothesis);
+  const VectorXd before = s_.model.expected()(kept_);
+  const auto value = [&](const VectorXd& theta) {
+    supposed.move({theta[0], theta[1]});
+    const VectorXd moved = s_.model.expected()(kept_) - before;
+    return -(base.residual - base.basis.rest(whitener(rows.mean(moved)))).squaredNorm();
+  };
+  inference::Candidate place;
+  const Eigen::Vector2d at((*world.hypothesis.place)[0], (*world.hypothesis.place)[1]);
+  place.refinement.lower = at.array() - reach;
+  place.refinement.upper = at.array() + reach;
+  place.refinement.step = Eigen::Vector2d::Constant(step);
+  const VectorXd best = inference::local_search(place, at, 60, value).first;
+  Hypothesis there = world.hypothesis;
+  there.place = supposed.move({best[0], best[1]});
+  world = linearised(there);
 }
 
 OwnWorld OwnWorldFits::with_levels(OwnWorld world) const {

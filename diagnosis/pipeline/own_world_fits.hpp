@@ -64,6 +64,7 @@ class OwnWorldFits {
   OwnWorld linearised(const Hypothesis& hypothesis);
   OwnWorld with_ends(OwnWorld world) const;
   InPlan moved_to_best(Supposed& supposed, const InPlan& start);
+  void stepped(OwnWorld& world, const noise::Rows& rows, const noise::Whitener& whitener);
   LinkReadings readings_of(const OwnWorld& world) const;
   std::vector<Eigen::Index> twins_in(const OwnWorld& world) const;
   const RowsOfWorld& rows_of(const OwnWorld& world) const;

@@ -101,6 +101,15 @@ std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
   return level && std::abs(weakest - *level) <= thresholds::reaches_a_floor ? level : std::nullopt;
 }
 
+// Readings are as exact as their steps allow, not more: their places and the plan are not.
+inference::Options options_for(double step) {
+  inference::Options options;
+  const double rounding = std::log(std::max(step * step / 12, 1e-30));
+  options.prior.log_least_variance =
+      std::clamp(rounding, thresholds::log_exact_variance, options.prior.log_least_variance);
+  return options;
+}
+
 inference::Problem problem_of(const DiagnosisSetup& at) {
   ObservedLevels levels = observed_levels(at.data, at.receiver, at.fitted.readings, at.used.rows);
   inference::Problem problem;
@@ -142,6 +151,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       rows(layout->rows()),
       sketched(sketched_readings({world, table, plugins, model, base, used.rows, layout, rows})),
       sought(candidates_of(*this, {world, table, plugins, model, base, used.rows, layout, rows})),
-      problem(problem_of(*this)) {}
+      problem(problem_of(*this)),
+      options(options_for(receiver.step)) {}
 
 }  // namespace muster::diagnosis

@@ -54,7 +54,7 @@ std::string world_elements(const Made& made) {
            ? "fading=\"false\""
            : fmt::format("rician_k=\"{:.1f}\"{}", c.rician_k,
                          c.fading == Channel::Fading::per_reading ? " per_reading=\"true\"" : ""));
-  line("<radio.receiver sensitivity=\"-200\"/>");
+  line("<radio.receiver sensitivity=\"-170\"/>");
   return out;
 }
 

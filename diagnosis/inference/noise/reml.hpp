@@ -13,8 +13,9 @@ struct Prior {
   double decorrelation_spread = inference::thresholds::prior_decorrelation_spread;
   double logit_shared = inference::thresholds::prior_logit_shared;
   double shared_spread = inference::thresholds::prior_shared_spread;
+  double log_least_variance = inference::thresholds::log_least_variance;  // of the field, and of one reading
 
-  Theta lower() const { return {-3, log_decorrelation - 3, -3, logit_shared - 4}; }
+  Theta lower() const { return {log_least_variance, log_decorrelation - 3, log_least_variance, logit_shared - 4}; }
   Theta upper() const { return {9, log_decorrelation + 2.4, 9, logit_shared + 4}; }
   Theta inside(const Theta& theta) const { return theta.cwiseMax(lower()).cwiseMin(upper()); }
 };

@@ -135,17 +135,26 @@ Truncation truncation_at_the_end(const VectorXd& heard, const VectorXd& mean, do
   return truncation_of(heard, mean, std::max(sigma, 0.1), step / 2);
 }
 
-// Monte Carlo test: true if one of the fitted world's own draws ends as abruptly: its receiver may hear no less.
+// Monte Carlo test: true if one of the fitted world's own draws ends as abruptly: its receiver may hear no less. The
+// model is fitted to each: where a field is smooth and exact, that leaves whole regions off by as much as the field is.
 bool ends_by_itself(const LawSources& s, double evidence, const Diagnosis& found) {
+  const Eigen::MatrixXd design = s.state.design();
+  const noise::Whitener whitener = s.state.whitened_model(design).whitener;
   for (uint64_t k = 0; k < thresholds::pile_draws; ++k) {
     const WorldDraw draw = s.draws.draw(k, found.parameters, {});
+    const VectorXd drawn = draw.drawn(s.used), error = drawn - draw.expected(s.used);
+    const noise::Whitened fitted =
+        noise::whitened(whitener, s.state.rows().mean(error.array().isFinite().select(error, 0).matrix()), design,
+                        s.state.options().prior);
+    const VectorXd moved = design * fitted.basis.coefficients(fitted.basis.q.transpose() * fitted.y, design.cols());
+    const VectorXd mean = draw.expected(s.used) + s.state.rows().at_readings(moved);
     std::vector<Eigen::Index> heard;
-    for (const Eigen::Index i : s.used) {
-      if (std::isfinite(draw.drawn[i]) && std::isfinite(draw.expected[i])) heard.push_back(i);
+    for (Eigen::Index i = 0; i < mean.size(); ++i) {
+      if (std::isfinite(drawn[i]) && std::isfinite(mean[i])) heard.push_back(i);
     }
     if (heard.empty()) continue;
-    const Truncation end = truncation_at_the_end(draw.drawn(heard), draw.expected(heard), found.receiver.step);
-    if (end.evidence >= evidence) return true;
+    const Truncation end = truncation_at_the_end(drawn(heard), mean(heard), found.receiver.step);
+    if (end.evidence * thresholds::beyond_drawn >= evidence) return true;
   }
   return false;
 }
