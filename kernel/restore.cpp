@@ -1,5 +1,6 @@
 // Restores a snapshot in place: all of it is checked against the run before anything changes.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -54,11 +55,11 @@ bool is_sound(const Table& table, const Snapshot::SavedSet& set, const Cells& ce
 
 // As an attribute or a change in the run can have set it: plugins count with choices and with rows.
 bool is_sound(const muster_param& declared, double value, const Snapshot& snapshot) {
+  if (std::bit_cast<uint64_t>(value) == std::bit_cast<uint64_t>(declared.value)) return true;  // not given
   if (declared.kind == MUSTER_REFERENCE) {
     const auto set = snapshot.sets.find(declared.text);
-    const bool is_row = set != snapshot.sets.end() && value >= 0 && value == std::floor(value) &&
-                        value < static_cast<double>(set->second.names.size());
-    return is_row || value == declared.value;
+    return set != snapshot.sets.end() && value >= 0 && value == std::floor(value) &&
+           value < static_cast<double>(set->second.names.size());
   }
   if (!is_settable(declared)) return true;
   if (declared.kind == MUSTER_FLAG) return value == 0 || value == 1;
