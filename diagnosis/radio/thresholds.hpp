@@ -22,7 +22,8 @@ inline constexpr double row_time = 1.2;
 inline constexpr double row_turn = 0.6109;
 // m; way of either end at which a row ends; chosen; none
 inline constexpr double row_way = 1.0;
-// ln dB^2; variance of the most exact readings, and of the least field in them, 0.08 dB; chosen; none
+// ln dB^2; variance of the most exact readings, and of the least field in them, 0.08 dB; chosen;
+// SimulatedDraws.ExactReadingsAreNotTakenForNoise
 inline constexpr double log_exact_variance = -5;
 // dB; change of the expected level at which a row ends; chosen; LinkRows.EndWhereAWallChangesTheLevel
 inline constexpr double row_level = 1.5;
@@ -270,7 +271,8 @@ inline constexpr double open_law_nats = 3;
 // draws; of a world without a law of readings, which are asked for a law that was found; chosen;
 // SimulatedDraws.ExactReadingsHaveNoOutliersOfTheirOwn
 inline constexpr uint64_t law_draws = 19;
-// factor; by which the evidence of a law, or of a floor that a log ends at, must exceed that in each draw; chosen; none
+// factor; by which the evidence of a law, or of a floor that a log ends at, must exceed that in each draw; chosen;
+// SimulatedDraws.AFieldThatEndsIsNoFloor
 inline constexpr double beyond_drawn = 1.5;
 // draws; of the world, over which a fitted field scatters; chosen; none
 inline constexpr int field_draws = 12;

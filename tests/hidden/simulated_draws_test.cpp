@@ -32,9 +32,9 @@ TEST(SimulatedDraws, MultipathOfTheWorldIsNoUnstatedField) {
   EXPECT_EQ(adequate.hits, 1) << as_text(g);
 }
 
-void expect_adequate(int number) {
+void expect_adequate(int number, const std::string& seed = "99101") {
   const Grades g =
-      examined("--seed 99101 --first " + std::to_string(number) + " --cases 1 --generator run --mix clean");
+      examined("--seed " + seed + " --first " + std::to_string(number) + " --cases 1 --generator run --mix clean");
   const Share& adequate = g.shares.at("clean / verdict adequate / all");
   EXPECT_EQ(adequate.of, 1) << as_text(g);
   EXPECT_EQ(adequate.hits, 1) << as_text(g);
@@ -42,7 +42,13 @@ void expect_adequate(int number) {
 
 // Nothing but the step of 0.1 dB scatters them, and the field bends sharply at four places: outliers of 24 nats, as in
 // one of twenty of the world's own draws.
-TEST(SimulatedDraws, ExactReadingsHaveNoOutliersOfTheirOwn) { expect_adequate(1); }
+TEST(SimulatedDraws, ExactReadingsHaveNoOutliersOfTheirOwn) {
+  expect_adequate(1);
+  expect_adequate(2, "99301");  // more than ten of them
+}
+
+// A smooth field without noise ends abruptly by itself: 234 nats, where one of 39 draws has 168.
+TEST(SimulatedDraws, AFieldThatEndsIsNoFloor) { expect_adequate(153, "99401"); }
 
 // Each reading stood there twice: a pile at the highest code, and walls that were transposed, by 57 nats.
 TEST(SimulatedDraws, BothDirectionsOfAMomentCountOnce) {
@@ -50,17 +56,27 @@ TEST(SimulatedDraws, BothDirectionsOfAMomentCountOnce) {
   expect_adequate(86);
 }
 
+// Names the one cause, and nothing else.
+void expect_named(int number, const std::string& seed) {
+  const Grades g = examined("--seed " + seed + " --first " + std::to_string(number) +
+                            " --cases 1 --generator run --mix one --lambda 50,400");
+  const Share& found = g.shares.at("one / top name right, by class / lambda >= 50");
+  EXPECT_EQ(found.of, 1) << number << as_text(g);
+  EXPECT_EQ(found.hits, 1) << number << as_text(g);
+  EXPECT_EQ(g.shares.at("one / wrong extra name / all").hits, 0) << number << as_text(g);
+}
+
 // Causes that a world has in readings which nothing but their rounding scatters, or which both directions share: a
 // radio that a robot passes, an offset of 0.3 dB beside levels in whole decibels, a plan that is shifted, and a step of
 // what one radio sends. They were outliers, a swing, four misplaced radios and skewness.
 TEST(SimulatedDraws, CausesInExactReadingsAreNamed) {
-  for (const int number : {10, 26, 49, 58}) {
-    const Grades g = examined("--seed 99102 --first " + std::to_string(number) +
-                              " --cases 1 --generator run --mix one --lambda 50,400");
-    const Share& found = g.shares.at("one / top name right, by class / lambda >= 50");
-    EXPECT_EQ(found.of, 1) << number << as_text(g);
-    EXPECT_EQ(found.hits, 1) << number << as_text(g);
-  }
+  for (const int number : {10, 26, 49, 58}) expect_named(number, "99102");
+}
+
+// A sector antenna of 0.5 dB was in the noise of 0.2 dB that fits were given at least. A plan that was settled 3 cm
+// beside its place left a few readings a whole wall off: outliers of lambda 310.
+TEST(SimulatedDraws, ExactReadingsAreNotTakenForNoise) {
+  for (const int number : {15, 25, 37}) expect_named(number, "99402");
 }
 
 }  // namespace
