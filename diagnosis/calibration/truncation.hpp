@@ -20,6 +20,8 @@ struct Truncation {
 // `mean`, `sigma`: of the levels of `heard` [dBm], none of which is NaN; `half_code`: half a step between readings, dB.
 // Without a floor, and where readings are independent, `evidence` has the exponential distribution of mean 1: the
 // probability that none lies below the weakest is the product over all readings of their chances to lie above it.
-Truncation truncation_of(const Eigen::VectorXd& heard, const Eigen::VectorXd& mean, double sigma, double half_code);
+// `weight`: of each reading in that, as many independent ones as it stands for; none: one.
+Truncation truncation_of(const Eigen::VectorXd& heard, const Eigen::VectorXd& mean, double sigma, double half_code,
+                         const Eigen::VectorXd& weight = {});
 
 }  // namespace muster::diagnosis

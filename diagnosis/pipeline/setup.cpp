@@ -101,9 +101,11 @@ std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
   return level && std::abs(weakest - *level) <= thresholds::reaches_a_floor ? level : std::nullopt;
 }
 
-// Readings are as exact as their steps allow, not more: their places and the plan are not.
-inference::Options options_for(double step) {
+// Readings are as exact as their steps allow, not more: their places and the plan are not. Where the world draws a
+// field, means over rows and nearest neighbours stand for it, which are less exact.
+inference::Options options_for(double step, const LinkModel& model) {
   inference::Options options;
+  if (drawn_field(model).shadowing > 0) return options;
   const double rounding = std::log(std::max(step * step / 12, 1e-30));
   options.prior.log_least_variance =
       std::clamp(rounding, thresholds::log_exact_variance, options.prior.log_least_variance);
@@ -152,6 +154,6 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       sketched(sketched_readings({world, table, plugins, model, base, used.rows, layout, rows})),
       sought(candidates_of(*this, {world, table, plugins, model, base, used.rows, layout, rows})),
       problem(problem_of(*this)),
-      options(options_for(receiver.step)) {}
+      options(options_for(receiver.step, model)) {}
 
 }  // namespace muster::diagnosis

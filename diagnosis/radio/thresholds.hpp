@@ -154,6 +154,8 @@ inline constexpr double censored_evidence = 10;
 // share; of losses that the floor explains, to take them for censored; chosen;
 // MissingData.AFloorBesideMuchRandomLossCutsLevelsOff
 inline constexpr double censored_share = 0.5;
+// readings; near a floor, as many independent ones as tell how they scatter; chosen; none
+inline constexpr double independent_near = 10;
 // dB; above a floor, where readings must be as many as expected; chosen; none
 inline constexpr double above_floor = 3;
 // dB; of the weakest reading above the world's own floor, to take the readings for those that it leaves; chosen; none

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <vector>
 
 #include "diagnosis/calibration/truncation.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
@@ -116,28 +118,57 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
 }
 
 // Scatter of the readings whose mean is near the weakest one: less than that of all, where only those above a floor
-// are.
-double scatter_near(double floor, const VectorXd& heard, const VectorXd& mean, double of_all) {
-  double count = 0, sum = 0, squares = 0;
+// are, or where they are of one place.
+double scatter_near(double floor, const VectorXd& heard, const VectorXd& mean, const VectorXd& weight, double of_all) {
+  double count = 0, sum = 0, squares = 0, independent = 0;
   for (Eigen::Index i = 0; i < heard.size(); ++i) {
     if (mean[i] - floor > thresholds::near_clip * of_all) continue;
     const double error = heard[i] - mean[i];
     count += 1;
+    independent += weight[i];
     sum += error;
     squares += error * error;
   }
-  return count < 2 ? of_all : std::min(of_all, std::sqrt((squares - sum * sum / count) / (count - 1)));
+  return independent < thresholds::independent_near
+             ? of_all
+             : std::min(of_all, std::sqrt((squares - sum * sum / count) / (count - 1)));
 }
 
-Truncation truncation_at_the_end(const VectorXd& heard, const VectorXd& mean, double step) {
+// Readings of a link at one place share its shadowing, and are not as many chances to lie below a floor: each stands
+// for the share of an independent one that their design effect leaves (Kish 1965). Far from the mean, where a floor is,
+// the correlation of chances is about the square of that of levels.
+VectorXd chances_of(const LawSources& s) {
+  const noise::Covariance& noise = s.state.fit.covariance;
+  const double shared = noise.field_variance() / (noise.field_variance() + noise.reading_variance());
+  const double cell = std::max(noise::stated_by(noise, s.state.within()).decorrelation / 2, 0.1);  // m
+  const LinkReadings& r = s.readings;
+  std::map<std::vector<long>, double> count;
+  std::vector<double*> of;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool as_it_is = r.tx[k] < r.rx[k];  // both directions are one link
+    std::vector<long> place{std::min(r.tx[k], r.rx[k]), std::max(r.tx[k], r.rx[k])};
+    for (const Eigen::Matrix3Xd* ends : {as_it_is ? &r.tx_at : &r.rx_at, as_it_is ? &r.rx_at : &r.tx_at}) {
+      for (const double at : ends->col(i)) place.push_back(std::lround(at / cell));
+    }
+    of.push_back(&count[place]);
+    *of.back() += 1;
+  }
+  VectorXd result(r.size());
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    result[i] = 1 / (1 + shared * shared * (*of[static_cast<std::size_t>(i)] - 1));
+  return result;
+}
+
+Truncation truncation_at_the_end(const VectorXd& heard, const VectorXd& mean, const VectorXd& weight, double step) {
   const double of_all = std::sqrt((heard - mean).squaredNorm() / static_cast<double>(heard.size()));
-  const double sigma = scatter_near(heard.minCoeff(), heard, mean, std::max(of_all, 0.1));
-  return truncation_of(heard, mean, std::max(sigma, 0.1), step / 2);
+  const double sigma = scatter_near(heard.minCoeff(), heard, mean, weight, std::max(of_all, 0.1));
+  return truncation_of(heard, mean, std::max(sigma, 0.1), step / 2, weight);
 }
 
 // Monte Carlo test: true if one of the fitted world's own draws ends as abruptly: its receiver may hear no less. The
 // model is fitted to each: where a field is smooth and exact, that leaves whole regions off by as much as the field is.
-bool ends_by_itself(const LawSources& s, double evidence, const Diagnosis& found) {
+bool ends_by_itself(const LawSources& s, double evidence, const VectorXd& weight, const Diagnosis& found) {
   const Eigen::MatrixXd design = s.state.design();
   const noise::Whitener whitener = s.state.whitened_model(design).whitener;
   for (uint64_t k = 0; k < thresholds::pile_draws; ++k) {
@@ -153,7 +184,7 @@ bool ends_by_itself(const LawSources& s, double evidence, const Diagnosis& found
       if (std::isfinite(drawn[i]) && std::isfinite(mean[i])) heard.push_back(i);
     }
     if (heard.empty()) continue;
-    const Truncation end = truncation_at_the_end(drawn(heard), mean(heard), found.receiver.step);
+    const Truncation end = truncation_at_the_end(drawn(heard), mean(heard), weight(heard), found.receiver.step);
     if (end.evidence * thresholds::beyond_drawn >= evidence) return true;
   }
   return false;
@@ -178,11 +209,12 @@ bool add_truncation(const LawSources& s, Diagnosis& found) {
   const VectorXd heard = s.fit.readings.rssi(s.used);
   const VectorXd expected = heard - (s.state.problem().measured - s.state.mean_of_readings());
   const double step = found.receiver.step;
-  const Truncation end = truncation_at_the_end(heard, expected, step);
+  const VectorXd weight = chances_of(s);
+  const Truncation end = truncation_at_the_end(heard, expected, weight, step);
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
   const double evidence = thresholds::joint_loss * end.evidence;
   if (-evidence > least || !end.is_abrupt() || clips_at(s, MUSTER_BELOW, true, end.floor, step) ||
-      ends_by_itself(s, end.evidence, found))
+      ends_by_itself(s, end.evidence, weight, found))
     return false;
   add_clip(s, causes, end.floor, std::max(step, 0.02), true, {"", {}, 2 * evidence, evidence, -evidence}, found);
   found.end = end.floor;

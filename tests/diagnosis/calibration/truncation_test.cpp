@@ -64,5 +64,15 @@ TEST(Truncation, OfMeansThatAreTooLowIsNotAbrupt) {
   EXPECT_FALSE(end.is_abrupt());
 }
 
+// Twenty readings of each place that are alike say what one of them does.
+TEST(Truncation, OfReadingsThatAreAlikeIsThatOfIndependentOnes) {
+  const Log log = log_of(3, all);
+  constexpr Eigen::Index alike = 20;
+  const Eigen::VectorXd heard = log.heard.transpose().replicate(alike, 1).reshaped(),
+                        mean = log.mean.transpose().replicate(alike, 1).reshaped();
+  const Eigen::VectorXd weight = Eigen::VectorXd::Constant(heard.size(), 1.0 / alike);
+  EXPECT_NEAR(truncation_of(heard, mean, 2, 0, weight).evidence, end_of(log).evidence, 1e-9);
+}
+
 }  // namespace
 }  // namespace muster::diagnosis
