@@ -127,6 +127,9 @@ inline constexpr double near_miss_nats = 7;
 
 // select: comparison of leads
 
+// nats; by which a smooth of an observed column must be ahead of a cause in time, which has a name; chosen;
+// SimulatedDraws.WhatDependsOnTimeIsNoBattery
+inline constexpr double unnamed_nats = 3;
 // nats; of evidence for twice as many functions of a smooth; chosen; none
 inline constexpr double grow_nats = 3;
 // cosine squared; from which two causes have the same effect; chosen;

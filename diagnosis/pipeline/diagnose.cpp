@@ -59,6 +59,28 @@ struct Diagnosed {
     keep_notes_of_given(world, found, folder.path(), out);
     return out;
   }
+
+  // In the world put right for the first cause of `first`. Where the same is found there again, such as a radio that is
+  // not where it was put, in the world put right for both at once.
+  Diagnosis put_right(Diagnosis first, const Diagnosis& found) const {
+    for (bool again = false;; again = true) {
+      CauseEstimate& cause = first.causes[0];
+      cause.put_right_first = true;
+      const TemporaryFolder folder;
+      Diagnosis out =
+          Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end})
+              .run(&first);
+      keep_notes_of_given(world, found, folder.path(), out);
+      const auto better = std::find_if(out.causes.begin() + 1, out.causes.end(), [&](const CauseEstimate& c) {
+        return c.status == inference::Status::named && c.id == cause.id && c.label == cause.label;
+      });
+      if (again || better == out.causes.end() || cause.values.empty() || watch.stop()) return out;
+      cause.values = better->values;
+      cause.evidence += better->evidence;
+      cause.log_p += better->log_p;
+      cause.lambda += better->lambda;
+    }
+  }
 };
 
 void add_searched(const OwnWorldVerdict& verdict, Diagnosis& out) {
@@ -146,12 +168,8 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   first.causes[0].sought_as.clear();
   // What comes near in the corrected world decides that.
   if (first.causes[0].doubt == doubt_by_imitator(*spoiler, found.checks, causes)) first.causes[0].doubt.clear();
-  const TemporaryFolder folder;
-  Diagnoser with_it(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end});
   if (!blockage) {
-    first.causes[0].put_right_first = true;
-    Diagnosis corrected = with_it.run(&first);
-    keep_notes_of_given(world, found, folder.path(), corrected);
+    Diagnosis corrected = Diagnosed{world, data, plugins, tables, watch, end}.put_right(first, found);
     if (watch.stop()) return interrupted(std::move(found));
     if (!exchanged.cause) return corrected;
     watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);
@@ -160,7 +178,10 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     const bool both = other && other->unseen && corrected.unseen;
     return both && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
   }
-  Diagnosis again = with_it.run();
+  const TemporaryFolder folder;
+  Diagnosis again =
+      Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end})
+          .run();
   keep_notes_of_given(world, found, folder.path(), again);
   if (watch.stop()) return interrupted(std::move(found));
   if (first.causes[0].log_p > thresholds::blockage_in_company && something_changes_in_time(again)) {

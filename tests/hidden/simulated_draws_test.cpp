@@ -73,6 +73,14 @@ TEST(SimulatedDraws, CausesInExactReadingsAreNamed) {
   for (const int number : {10, 26, 49, 58}) expect_named(number, "99102");
 }
 
+// A battery that falls all the while bends as well as a drift or a step does, and has no name.
+TEST(SimulatedDraws, WhatDependsOnTimeIsNoBattery) {
+  for (const int number : {21, 30}) expect_named(number, "99602");
+}
+
+// A station was put where one field had its best place, and found again 1.3 m from there: named twice.
+TEST(SimulatedDraws, ARadioIsMisplacedOnce) { expect_named(59, "99602"); }
+
 // A sector antenna of 0.5 dB was in the noise of 0.2 dB that fits were given at least. A plan that was settled 3 cm
 // beside its place left a few readings a whole wall off: outliers of lambda 310.
 TEST(SimulatedDraws, ExactReadingsAreNotTakenForNoise) {

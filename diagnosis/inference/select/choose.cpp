@@ -48,13 +48,17 @@ void to_front(std::vector<ScoredCandidate>& pool, std::vector<ScoredCandidate>::
   std::rotate(pool.begin(), chosen, chosen + 1);
 }
 
-// Prefers to a smooth a cause of its covariate that explains nearly all of it.
+// Prefers to a smooth a cause of its covariate that explains nearly all of it; to one of an observed column, such as a
+// battery that falls all the while, a cause in time that does as well: it has a name.
 void prefer_names(std::vector<ScoredCandidate>& pool, double share) {
   if (pool[0].candidate().kind != Kind::smooth) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
+    if (lead.candidate().kind != Kind::named) return false;
     const auto by_chance = static_cast<double>(std::max<Index>(0, pool[0].columns.cols() - lead.columns.cols()));
-    return lead.candidate().kind == Kind::named && lead.gain >= share * (pool[0].gain - by_chance) &&
-           lead.candidate().role.replaces.count(pool[0].candidate().own()) > 0;
+    const bool as_well = pool[0].candidate().role.observed && lead.candidate().role.time_like &&
+                         lead.evidence > pool[0].evidence - thresholds::unnamed_nats;
+    return as_well || (lead.gain >= share * (pool[0].gain - by_chance) &&
+                       lead.candidate().role.replaces.count(pool[0].candidate().own()) > 0);
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }
@@ -68,11 +72,14 @@ double won(const ScoredCandidate& lead) {
   return lead.gain - 2 * static_cast<double>(lead.columns.cols() + searched);
 }
 
-// Prefers to a function of time an observed column that does as well for its number of functions.
+// Prefers to a function of time an observed column that does as well for its number of functions; to a cause in time
+// one that does better, unless it is a cause, too.
 void prefer_observed(std::vector<ScoredCandidate>& pool) {
-  if (!pool[0].candidate().role.time_like) return;
+  const Candidate& first = pool[0].candidate();
+  if (!first.role.time_like) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
-    return lead.candidate().role.observed && won(lead) >= won(pool[0]);
+    const bool unnamed = first.kind == Kind::named && lead.candidate().kind == Kind::smooth;
+    return lead.candidate().role.observed && won(lead) >= won(pool[0]) + (unnamed ? 2 * thresholds::unnamed_nats : 0);
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }

@@ -43,7 +43,9 @@ bool driven_through(const MeasurementGeometry& s, double x, double y, double rad
   for (auto at = from_west_of(s.ways, x, reach); at != s.ways.end() && at->front() - x <= reach; ++at) {
     const Eigen::Vector2d from(at->front() - x, (*at)[1] - y), way((*at)[2] - at->front(), (*at)[3] - (*at)[1]);
     if (std::abs(from.y()) > reach) continue;
-    const double nearest = std::clamp(-from.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+    // Between the ends of a longer piece a robot may have driven round the disk.
+    const bool is_straight = way.squaredNorm() < 2 * radius * radius;
+    const double nearest = is_straight ? std::clamp(-from.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0) : 0;
     if ((from + nearest * way).squaredNorm() < 0.49 * radius * radius) return true;
   }
   return false;

@@ -118,7 +118,9 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
   test.values[0].name = draw.scale;
   test.values[1].name = draw.distance;
   // The field needs two tests to agree (shadowing_test.hpp).
-  if (!beyond_chance(test, thresholds::field_alpha) || world_draws_alike(s, found)) return;
+  if (!beyond_chance(test, thresholds::field_alpha) || test.evidence < thresholds::least_field ||
+      world_draws_alike(s, found))
+    return;
   CauseEstimate& named = add_named(s, causes, test, found);
   named.doubt = doubt_of_field(found, named);
 }

@@ -36,15 +36,17 @@ TEST(MeasurementGeometry, AHeadingPastHalfATurnIsNoTurn) {
   EXPECT_EQ(std::count(turns.turns.begin(), turns.turns.end(), true), 1);
 }
 
-// Pieces of a way of 1.5 m: the middle of one is driven through as its ends are.
+// Pieces of a way of 0.8 m: the middle of one is driven through as its ends are, unless the robot may have driven
+// round.
 TEST(MeasurementGeometry, AWayIsDrivenBetweenItsReadings) {
   MeasurementGeometry survey;
-  for (int k = 0; k < 6; ++k) survey.ways.push_back({1.5 * k, 2, 1.5 * (k + 1), 2});
-  for (double x = 0.25; x < 9; x += 0.25) {
-    EXPECT_TRUE(driven_through(survey, x, 2.1, 0.3)) << x;
-    EXPECT_FALSE(driven_through(survey, x, 2.4, 0.3)) << x;
+  for (int k = 0; k < 10; ++k) survey.ways.push_back({0.8 * k, 2, 0.8 * (k + 1), 2});
+  for (double x = 0.2; x < 8; x += 0.2) {
+    EXPECT_TRUE(driven_through(survey, x, 2.35, 0.6)) << x;
+    EXPECT_FALSE(driven_through(survey, x, 2.45, 0.6)) << x;
   }
-  EXPECT_FALSE(driven_through(survey, 9.5, 2, 0.3));
+  EXPECT_FALSE(driven_through(survey, 0.4, 2, 0.5));
+  EXPECT_TRUE(driven_through(survey, 0.8, 2, 0.5));
 }
 
 // A robot that sends, and says where its receivers look: its own heading is unknown.

@@ -127,6 +127,7 @@ TEST(SpatialScan, CountsWaysAcrossASegmentAndThroughADisk) {
     const bool through = std::any_of(survey.ways.begin(), survey.ways.end(), [&](const auto& w) {
       const Point at(theta[1], theta[2]), from(w[0], w[1]), to(w[2], w[3]), way = to - from;
       const bool beside = way.dot(at - from) > 0 && way.dot(to - at) > 0;
+      if (way.norm() > std::sqrt(2) * radius) return (at - from).norm() < 0.7 * radius;
       const double aside = std::abs(way.x() * (at - from).y() - way.y() * (at - from).x()) / way.norm();
       return (beside ? aside : std::min((at - from).norm(), (at - to).norm())) < 0.7 * radius;
     });
