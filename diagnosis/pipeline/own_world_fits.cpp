@@ -238,7 +238,7 @@ InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance
     const Hypothesis here = world.hypothesis;
     world = linearised(here);
   }
-  stepped(world, rows, whitener);
+  if (std::sqrt(covariance.reading_variance()) < thresholds::least_stated_scatter) stepped(world, rows, whitener);
   return sd;
 }
 

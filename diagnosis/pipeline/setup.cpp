@@ -9,6 +9,7 @@
 #include "diagnosis/radio/causes/cheap_columns.hpp"
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
 #include "diagnosis/radio/laws/clip_causes.hpp"
+#include "diagnosis/radio/laws/law_sources.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
 #include "diagnosis/radio/links/twin_readings.hpp"
@@ -105,7 +106,9 @@ std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
 // field, means over rows and nearest neighbours stand for it, which are less exact.
 inference::Options options_for(double step, const LinkModel& model) {
   inference::Options options;
-  if (drawn_field(model).shadowing > 0) return options;
+  if (drawn_field(model).shadowing > 0 ||
+      std::sqrt(base_variance(stated_law(model))) > thresholds::least_stated_scatter)
+    return options;
   const double rounding = std::log(std::max(step * step / 12, 1e-30));
   options.prior.log_least_variance =
       std::clamp(rounding, thresholds::log_exact_variance, options.prior.log_least_variance);

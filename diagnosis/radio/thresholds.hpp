@@ -288,8 +288,8 @@ inline constexpr double absorbed_alpha = 1e-3;
 // probability; of a cause or a dependence that is not found, beside which a law of single readings is in doubt; chosen;
 // LawDoubts.ALawOfScatterIsInDoubtBesideWhatIsPlainlyLeft
 inline constexpr double scattered_alpha = 1e-6;
-// nats; evidence of another field, below which it is none; chosen; none
-inline constexpr double least_field = 5;
+// nats; evidence of another field, below which it is none; chosen; HiddenEffect.IsFoundAtLambda60
+inline constexpr double least_field = 4;
 // nats; evidence from which another field is plain, whatever the law of distance; chosen;
 // LawDoubts.AFieldOfLittleEvidenceMayHaveAnotherLawOfDistance
 inline constexpr double plain_field = 20;
