@@ -148,7 +148,7 @@ bool is_same(const fs::path& one, const fs::path& other) {
 
 fs::path copy_world(const fs::path& world, const fs::path& out) {
   const fs::path file = file_of(world), folder = folder_of(file);
-  const fs::path written = out / file.filename();
+  fs::path written = out / file.filename();
   if (is_same(folder, out)) return written;
   copy_folder(folder, out);
   tinyxml2::XMLDocument document;
