@@ -71,10 +71,11 @@ struct Diagnosed {
           Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end})
               .run(&first);
       keep_notes_of_given(world, found, folder.path(), out);
+      if (again || watch.stop() || cause.values.empty()) return out;
       const auto better = std::find_if(out.causes.begin() + 1, out.causes.end(), [&](const CauseEstimate& c) {
         return c.status == inference::Status::named && c.id == cause.id && c.label == cause.label;
       });
-      if (again || better == out.causes.end() || cause.values.empty() || watch.stop()) return out;
+      if (better == out.causes.end()) return out;
       cause.values = better->values;
       cause.evidence += better->evidence;
       cause.log_p += better->log_p;

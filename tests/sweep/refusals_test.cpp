@@ -82,22 +82,23 @@ TEST(SweepRefusals, OfWords) {
   refused({"plan.xml", "--out", "way.csv"}, "--out: way.csv is a file; expected a folder");
 }
 
+void expect_refused_once_changed(const SweepFolder& folder, const std::string& file) {
+  const std::string text = folder.read(file);
+  folder.write(file, text + '\n');
+  expect_error(folder.sweep({"plan.xml", "--out", "out"}), 2,
+               file +
+                   " is not what it was when the runs in out were begun; expected another folder (--out), so that "
+                   "runs of both are not mixed");
+  folder.write(file, text);
+}
+
 // Runs of one thing are never mixed with runs of another.
 TEST(SweepRefusals, OfWhatHasChangedSince) {
   const SweepFolder folder;
   folder.write_sweep();
   ASSERT_EQ(folder.sweep({"plan.xml", "--out", "out", "--index", "1", "--of", "2"}).exit, 0);
   const auto before = folder.ask("out", "SELECT count(*) FROM run");
-  for (const char* file : {"plan.xml", "world.xml", "way.csv"}) {
-    const std::string text = folder.read(file);
-    folder.write(file, text + '\n');
-    expect_error(
-        folder.sweep({"plan.xml", "--out", "out"}), 2,
-        std::string(file) +
-            " is not what it was when the runs in out were begun; expected another folder (--out), so that runs "
-            "of both are not mixed");
-    folder.write(file, text);
-  }
+  for (const char* file : {"plan.xml", "world.xml", "way.csv"}) expect_refused_once_changed(folder, file);
   EXPECT_EQ(folder.ask("out", "SELECT count(*) FROM run"), before);
   EXPECT_EQ(folder.sweep({"plan.xml", "--out", "out"}).exit, 0);
 }
@@ -114,16 +115,7 @@ TEST(SweepRefusals, OfFilesThatTheWorldDoesNotNameThatHaveChangedSince) {
                "plugins=\"control.waypoint control.waypoint:path=other.csv\"/></sweep>");
   const auto first = folder.sweep({"plan.xml", "--out", "out"});
   ASSERT_EQ(first.exit, 0) << first.err;
-  for (const char* file : {"models/mine.urdf", "other.csv"}) {
-    const std::string text = folder.read(file);
-    folder.write(file, text + '\n');
-    expect_error(
-        folder.sweep({"plan.xml", "--out", "out"}), 2,
-        std::string(file) +
-            " is not what it was when the runs in out were begun; expected another folder (--out), so that runs "
-            "of both are not mixed");
-    folder.write(file, text);
-  }
+  for (const char* file : {"models/mine.urdf", "other.csv"}) expect_refused_once_changed(folder, file);
   EXPECT_EQ(folder.sweep({"plan.xml", "--out", "out"}).exit, 0);
 }
 
