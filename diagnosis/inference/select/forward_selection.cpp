@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "diagnosis/inference/noise/columns.hpp"
@@ -11,6 +10,7 @@
 #include "diagnosis/inference/score/drawn_inflation.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/choose.hpp"
+#include "diagnosis/inference/select/gain_by_row.hpp"
 #include "diagnosis/inference/select/merge_duplicates.hpp"
 #include "diagnosis/inference/select/refit_noise_pass.hpp"
 #include "diagnosis/inference/select/relocate.hpp"
@@ -28,71 +28,6 @@ struct Blocked {
   std::set<std::string> now;       // until the model changes
   std::set<std::string> for_good;  // indistinguishable from clipping
 };
-
-// Share of the gain from groups other than the strongest one. `won`: the gain of each row.
-double share_of_others(const ModelState& state, const Eigen::VectorXd& won) {
-  std::map<int, double> by_anchor;
-  for (Index i = 0; i < won.size(); ++i) by_anchor[state.field().sites().group[static_cast<std::size_t>(i)]] += won[i];
-  double most = 0;
-  for (const auto& [anchor, sum] : by_anchor) most = std::max(most, sum);
-  return 1 - most / won.sum();
-}
-
-// Rows, the one that won most first.
-std::vector<Index> by_gain(const Eigen::VectorXd& won) {
-  std::vector<Index> rows(static_cast<std::size_t>(won.size()));
-  std::iota(rows.begin(), rows.end(), 0);
-  std::sort(rows.begin(), rows.end(), [&](Index a, Index b) { return won[a] > won[b]; });
-  return rows;
-}
-
-// True if fewer than five readings carry half of the gain. `rows`: by gain.
-bool from_few(const ModelState& state, const Eigen::VectorXd& won, const std::vector<Index>& rows) {
-  double sum = 0, readings = 0;
-  for (const Index row : rows) {
-    if (sum >= won.sum() / 2) break;
-    sum += won[row];
-    readings += state.rows().count()[row];
-  }
-  return readings < thresholds::few_readings;
-}
-
-// Gain of columns by row, and the share of it that remains with residuals clipped at four standard errors.
-struct GainByRow {
-  Eigen::VectorXd won;
-  double tame_share;
-};
-
-GainByRow gain_by_row(const WhitenedModel& model, const Eigen::MatrixXd& columns) {
-  const auto added = noise::basis_of(model.at.basis.rest(model.whitener(columns)));
-  const Eigen::VectorXd &r = model.at.residual,
-                        tame = r.cwiseMax(-thresholds::usual_errors).cwiseMin(thresholds::usual_errors);
-  const Eigen::VectorXd along = added.q.transpose() * r, left = r - added.q * along;
-  return {r.array().square() - left.array().square(), (added.q.transpose() * tame).squaredNorm() / along.squaredNorm()};
-}
-
-// Gain without these rows.
-double gain_without(const ModelState& state, const WhitenedModel& model, const noise::Covariance& covariance,
-                    const Eigen::MatrixXd& columns, const std::vector<Index>& rows) {
-  Eigen::MatrixXd left_out = Eigen::MatrixXd::Zero(state.rows().size(), static_cast<Index>(rows.size()));
-  for (std::size_t k = 0; k < rows.size(); ++k) left_out(rows[k], static_cast<Index>(k)) = 1;
-  return state.whitened_model(noise::hstack(model.design, left_out), covariance).gain(columns);
-}
-
-// True for an outlier fitted by a place. Few readings carry the gain, and clipped residuals leave less than half of
-// it, or no more than chance; nor do those that carry less, to which an outlier leaks as their neighbour.
-bool of_outlier(const ModelState& state, const ScoredCandidate& lead, const WhitenedModel& model,
-                const noise::Covariance& covariance, const GainByRow& gains_by_row) {
-  std::vector<Index> rows = by_gain(gains_by_row.won);
-  if (!from_few(state, gains_by_row.won, rows)) return false;
-  const auto is_chance = [&](double gain) {
-    return state.log_p(lead.candidate(), gain, lead.columns.cols(), true) > state.threshold();
-  };
-  if (gains_by_row.tame_share >= thresholds::tame_share && !is_chance(gains_by_row.tame_share * gains_by_row.won.sum()))
-    return false;
-  rows.resize(std::min(rows.size(), thresholds::rows_of_an_outlier));
-  return is_chance(gain_without(state, model, covariance, lead.columns, rows));
-}
 
 // Fits the noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be a
 // local optimum.
