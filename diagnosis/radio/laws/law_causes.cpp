@@ -47,25 +47,33 @@ bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, 
   return false;
 }
 
-// Tests the fading law. Returns the law of readings: the stated one, or the one named here.
-ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
-                                KrigedReadings& field, Diagnosis& found) {
+constexpr const char* normal_noise = "single readings scatter as normal noise does, of which the world states none";
+
+// The law of readings: the stated one, or the one that is named.
+struct Scatter {
+  ReadingDistribution law;
+  bool doubted = false;  // another one would be likelier, but is not named: a note says why
+};
+
+// Tests the fading law.
+Scatter add_scatter(const LawSources& s, const ReadingDistribution& stated, const VectorXd& residual,
+                    KrigedReadings& field, Diagnosis& found) {
   const auto [tests, likeliest] =
       law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance, unsure(s, residual));
   const auto best = tests.begin();
-  if (likeliest.noise > 0)
-    found.notes.push_back("single readings scatter as normal noise does, of which the world states none");
-  if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return likeliest;
-  if (!stated.base.law && replaces(s, best->cause)) return best->law;  // it contradicts nothing
+  if (likeliest.noise > 0 && std::find(found.notes.begin(), found.notes.end(), normal_noise) == found.notes.end())
+    found.notes.emplace_back(normal_noise);
+  if (best == tests.end() || !beyond_chance(*best, thresholds::law_alpha)) return {likeliest};
+  if (!stated.base.law && replaces(s, best->cause)) return {best->law};  // it contradicts nothing
   if (std::string doubt = doubt_of(s, residual, field, found, *best); !doubt.empty()) {
     found.notes.push_back(std::move(doubt));
-    return likeliest;
+    return {likeliest, true};
   }
   const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter;
   if (is_exact && scatters_by_itself(s, stated, likeliest, residual, *best, found)) {
     found.notes.push_back("readings look like " + best->cause +
                           ", but so do readings that the world itself draws without it: it is not named");
-    return likeliest;
+    return {likeliest, true};
   }
   add_named(s, causes_that(s, [&](const Cause& c) { return c.id == best->cause; }), *best, found);
   std::string& doubt = found.causes.back().doubt;
@@ -76,7 +84,7 @@ ReadingDistribution add_scatter(const LawSources& s, const ReadingDistribution& 
     if (&other != &*best && gap < thresholds::open_law_nats)
       found.causes.back().alternatives.push_back({other.cause, "all", {}, gap, 2 * gap});
   }
-  return best->law;
+  return {best->law};
 }
 
 // log shadowing and log decorrelation distance of a fitted field.
@@ -136,9 +144,10 @@ void leave_the_stronger(Diagnosis& found) {
 const std::string shared = "not testable: readings of one place share a part of their scatter, such as multipath";
 
 // What the directions of a link share is the same in both; a draw of each alone, such as an outlier, is in the mean of
-// twins half as large and twice as often. Names such a law by the means, where one direction has too few of its draws.
+// twins half as large and twice as often. Names such a law by the means, where one direction has too few of its draws;
+// its numbers are those of the readings of one direction, `each` with `field_of_each`, where these have any.
 void add_scatter_of_means(const LawSources& s, const ReadingDistribution& stated, const VectorXd& all,
-                          Diagnosis& found) {
+                          const VectorXd& each, KrigedReadings& field_of_each, Diagnosis& found) {
   if (s.readings.twin.empty() ||
       s.readings.twin_variance > thresholds::twins_differ * s.state.fit.covariance.reading_variance())
     return;
@@ -148,7 +157,19 @@ void add_scatter_of_means(const LawSources& s, const ReadingDistribution& stated
   KrigedReadings field = kriged(s, residual);
   Diagnosis of_means = found;
   add_scatter(s, stated, residual, field, of_means);
-  if (of_means.causes.size() > found.causes.size() && !replaces(s, of_means.causes.back().id)) found = of_means;
+  if (of_means.causes.size() == found.causes.size() || replaces(s, of_means.causes.back().id)) return;
+  found = std::move(of_means);
+  CauseEstimate& named = found.causes.back();
+  auto laws = laws_of_causes(s);
+  std::erase_if(laws, [&](const auto& law) { return law->id() != named.id; });
+  const LawTests tests =
+      law_tests(field_of_each, found.receiver.step, laws, stated, s.state.fit.covariance, unsure(s, each));
+  if (!tests.tests.empty() && tests.tests.front().gain > 0)
+    named.values = values_of(s, tests.tests.front());
+  else
+    found.notes.push_back("the numbers of " + named.id +
+                          " are those of the mean of a link's two directions: one alone is up to twice as far off, and "
+                          "half as often");
 }
 
 // Runs the tests on single readings in turn. Where the world states no law, normal noise and every law that could
@@ -187,12 +208,11 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& both_ways, std::s
   if (!why.empty()) return;
   found.notes.insert(found.notes.end(), notes.begin(), notes.end());
   const std::size_t before = found.causes.size();
-  const std::size_t notes_before = found.notes.size();
-  const ReadingDistribution law = add_scatter(s, stated, residual, *field, found);
-  if (found.causes.size() == before && found.notes.size() == notes_before)
-    add_scatter_of_means(s, stated, both_ways, found);
+  const Scatter scatter = add_scatter(s, stated, residual, *field, found);
+  if (found.causes.size() == before && !scatter.doubted)
+    add_scatter_of_means(s, stated, both_ways, residual, *field, found);
   if (!of_field.empty()) return;
-  add_field(s, *field, law, found);
+  add_field(s, *field, scatter.law, found);
   if (found.causes.size() == before + 2) leave_the_stronger(found);
 }
 

@@ -8,6 +8,19 @@
 namespace muster::diagnosis {
 namespace {
 
+std::vector<CauseValue> values_of(const Cause& cause, const LawTest& test) {
+  std::vector<CauseValue> result;
+  for (const LawValue& v : test.values) {
+    const auto* const end = cause.plugin->params + cause.plugin->param_count;
+    const auto* const p =
+        std::find_if(cause.plugin->params, end, [&](const muster_param& q) { return q.name == v.name; });
+    if (p == end) continue;
+    result.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max),
+                      (v.upper95 - v.lower95) / (2 * thresholds::normal95), v.lower95, v.upper95, p->min, p->max});
+  }
+  return result;
+}
+
 CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test) {
   CauseEstimate out;
   out.id = cause.id;
@@ -15,14 +28,7 @@ CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test
   out.title = cause.meaning().title;
   out.tell_apart = cause.meaning().tell_apart;
   out.covariates = {"reading"};
-  for (const LawValue& v : test.values) {
-    const auto* const end = cause.plugin->params + cause.plugin->param_count;
-    const auto* const p =
-        std::find_if(cause.plugin->params, end, [&](const muster_param& q) { return q.name == v.name; });
-    if (p == end) continue;
-    out.values.push_back({v.name, p->unit, std::clamp(v.value, p->min, p->max),
-                          (v.upper95 - v.lower95) / (2 * thresholds::normal95), v.lower95, v.upper95, p->min, p->max});
-  }
+  out.values = values_of(cause, test);
   out.evidence = test.evidence;
   out.log_p = test.log_p;
   out.lambda = test.gain;
@@ -39,6 +45,11 @@ std::vector<std::shared_ptr<const ReadingLaw>> laws_of_causes(const LawSources& 
       result.push_back(std::make_shared<const ReadingLaw>(cause.id, cause.library, *cause.plugin));
   }
   return result;
+}
+
+std::vector<CauseValue> values_of(const LawSources& s, const LawTest& test) {
+  const std::vector<const Cause*> causes = causes_that(s, [&](const Cause& c) { return c.id == test.cause; });
+  return causes.empty() ? std::vector<CauseValue>() : values_of(*causes.front(), test);
 }
 
 bool replaces(const LawSources& s, const std::string& cause) {

@@ -36,6 +36,8 @@ std::vector<const Cause*> causes_that(const LawSources& sources, const Has& has)
 
 // Laws of causes that change single readings.
 std::vector<std::shared_ptr<const ReadingLaw>> laws_of_causes(const LawSources& sources);
+// The fitted numbers of the test's cause, with its units and bounds.
+std::vector<CauseValue> values_of(const LawSources& sources, const LawTest& test);
 // True for a law that is drawn instead of the stated one, not beside it.
 bool replaces(const LawSources& sources, const std::string& cause);
 // The law of single readings that the world's instances declare.
