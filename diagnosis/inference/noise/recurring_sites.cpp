@@ -1,6 +1,5 @@
 #include "diagnosis/inference/noise/recurring_sites.hpp"
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -10,9 +9,19 @@
 
 namespace muster::noise {
 
+SiteKey site_key(const Sites& sites, Index row) {
+  SiteKey key{sites.group[static_cast<std::size_t>(row)]};
+  for (Index axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(axis);
+    key[at + 1] = std::lround(sites.place(axis, row) / inference::thresholds::same_site);
+    key[at + 4] = std::lround(sites.anchor(axis, row) / inference::thresholds::same_site);
+  }
+  return key;
+}
+
 RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
   stream_.resize(at(sites.size()), 0);
-  std::map<std::array<long, 7>, Index> number;
+  std::map<SiteKey, Index> number;
   std::set<std::pair<Index, int>> streams;
   for (Index i = 0; i < sites.size(); ++i) {
     if (sites.is_alone(i)) {
@@ -21,12 +30,7 @@ RecurringSites::RecurringSites(const Sites& sites) : stream_(sites.stream) {
       continue;
     }
     ++sharing_;
-    std::array<long, 7> key{sites.group[at(i)]};
-    for (Index axis = 0; axis < 3; ++axis) {
-      key[at(axis + 1)] = std::lround(sites.place(axis, i) / inference::thresholds::same_site);
-      key[at(axis + 4)] = std::lround(sites.anchor(axis, i) / inference::thresholds::same_site);
-    }
-    const auto [entry, is_new] = number.try_emplace(key, static_cast<Index>(rows_.size()));
+    const auto [entry, is_new] = number.try_emplace(site_key(sites, i), static_cast<Index>(rows_.size()));
     if (is_new) rows_.emplace_back();
     auto& rows = rows_[at(entry->second)];
     several_streams_ = several_streams_ || (!rows.empty() && stream_[at(rows.front())] != stream_[at(i)]);

@@ -2,9 +2,15 @@
 // no other row has. So may those of one stream there: a direction, an instrument.
 #pragma once
 
+#include <array>
+
 #include "diagnosis/inference/noise/rows.hpp"
 
 namespace muster::noise {
+
+// The same for rows of one group, place and anchor.
+using SiteKey = std::array<long, 7>;
+SiteKey site_key(const Sites& sites, Index row);
 
 enum class Relation { apart = 0, site, stream };
 

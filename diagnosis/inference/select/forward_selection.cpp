@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/bulk_inflation.hpp"
@@ -70,18 +71,37 @@ Index numbers_of(const Candidate& c) { return c.design.width + (c.refinement.ste
 // True if nearly all rows recur at a few sites.
 bool stands(const ModelState& state) { return state.field().recurring().share() >= thresholds::standing_share; }
 
+// Levels that a network has to fit: one a site, and, where the columns differ between directions, one more of each link
+// whose directions were measured together (rows of half differences, which share no field). None where the columns vary
+// within a site.
+std::optional<Index> levels_of(const ModelState& state, const Eigen::MatrixXd& columns) {
+  const noise::Sites& sites = state.field().sites();
+  const double small = 1e-6 * columns.cwiseAbs().maxCoeff();
+  Index levels = 0;
+  std::set<noise::SiteKey> differing;
+  bool differs = false;
+  for (const std::vector<Index>& rows : state.field().recurring().sites()) {
+    const Index first = rows.front();
+    if (sites.is_alone(first)) {
+      differing.insert(noise::site_key(sites, first));
+      differs = differs || columns.row(first).cwiseAbs().maxCoeff() > small;
+      continue;
+    }
+    ++levels;
+    for (const Index row : rows)
+      if ((columns.row(row) - columns.row(first)).cwiseAbs().maxCoeff() > small) return {};
+  }
+  return levels + (differs ? static_cast<Index>(differing.size()) : 0);
+}
+
 // True if nearly all rows recur at a few sites, which the model would then fit one by one: each site has one level,
 // however often it is measured, and a term that is alike in all rows of a site needs as many of them left as it has
 // numbers.
 bool fits_each_site(const ModelState& state, const ScoredCandidate& lead) {
   if (!stands(state)) return false;
-  const noise::RecurringSites& recurring = state.field().recurring();
-  const double small = 1e-6 * lead.columns.cwiseAbs().maxCoeff();
-  for (const std::vector<Index>& rows : recurring.sites()) {
-    for (const Index row : rows)
-      if ((lead.columns.row(row) - lead.columns.row(rows.front())).cwiseAbs().maxCoeff() > small) return false;
-  }
-  Index left = static_cast<Index>(recurring.sites().size()) - state.base().cols() - numbers_of(lead.candidate());
+  const std::optional<Index> levels = levels_of(state, lead.columns);
+  if (!levels) return false;
+  Index left = *levels - state.base().cols() - numbers_of(lead.candidate());
   for (const Term& term : state.terms) left -= numbers_of(*term.candidate);
   return left < numbers_of(lead.candidate());
 }
