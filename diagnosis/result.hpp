@@ -34,7 +34,6 @@ struct CauseEstimate {
   // The search's id for it: a wall with zero loss may be reported as an absent one. Empty: not from the search, but a
   // law of readings or an earlier edit.
   std::string sought_as;
-  bool put_right_first = false;  // all else was fitted in a world corrected for it
   inference::Status status = inference::Status::named;
   std::vector<std::string> covariates;  // its arguments, its own one first: "map", "time", "bearing"
   std::string row_parameter, row;       // empty for a cause without a row

@@ -49,7 +49,6 @@ struct Diagnosed {
   std::optional<Diagnosis> corrected_for(const OwnWorldVerdict& verdict, const Diagnosis& found, bool by_itself) const {
     Diagnosis first = found;
     first.causes = {*verdict.cause};
-    first.causes[0].put_right_first = true;
     for (const auto& [path, value] : verdict.parameters) first.parameters[path] = value;
     const TemporaryFolder folder;
     Diagnosis out =
@@ -61,22 +60,25 @@ struct Diagnosed {
   }
 
   // In the world put right for the first cause of `first`. Where the same is found there again, such as a radio that is
-  // not where it was put, in the world put right for both at once.
+  // not where it was put, in the world put right for all at once.
   Diagnosis put_right(Diagnosis first, const Diagnosis& found) const {
-    for (bool again = false;; again = true) {
+    constexpr int most = 3;  // each time it comes nearer by far
+    for (int times = 1;; ++times) {
       CauseEstimate& cause = first.causes[0];
-      cause.put_right_first = true;
       const TemporaryFolder folder;
       Diagnosis out =
           Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end})
               .run(&first);
       keep_notes_of_given(world, found, folder.path(), out);
-      if (again || watch.stop() || cause.values.empty()) return out;
+      if (times == most || watch.stop() || cause.values.empty()) return out;
       const auto better = std::find_if(out.causes.begin() + 1, out.causes.end(), [&](const CauseEstimate& c) {
         return c.status == inference::Status::named && c.id == cause.id && c.label == cause.label;
       });
       if (better == out.causes.end()) return out;
       cause.values = better->values;
+      cause.alternatives = better->alternatives;
+      cause.doubt = better->doubt;
+      cause.inflation = std::max(cause.inflation, better->inflation);
       cause.evidence += better->evidence;
       cause.log_p += better->log_p;
       cause.lambda += better->lambda;

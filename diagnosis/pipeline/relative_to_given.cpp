@@ -54,6 +54,7 @@ void begin_as_given(const Diagnosis& given, bool by_itself, const CorrectedSearc
                                                  : errors_beside(given, first.unseen_without, out.unseen->after, out));
   out.unseen = errors_beside(given, given.unseen->before, out.unseen->after, out);
   out.held_out = inference::compared(*out.unseen);
+  if (!out.stairs.empty()) out.stairs.front().with = first.id;
   out.stairs.insert(out.stairs.begin(), inference::stair_of(*out.unseen));
 }
 

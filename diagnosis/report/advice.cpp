@@ -46,20 +46,17 @@ std::vector<Question> open_questions(const Diagnosis& d) {
 }
 
 std::string name_of_step(const Diagnosis& d, std::size_t k) {
-  if (k == 0) return "the world, fitted";
-  // Accepted causes and effects that have none, in one order of strength.
-  std::vector<std::pair<double, std::string>> steps;
-  for (const CauseEstimate& c : d.causes) {
-    if (confidence_of(c) != Confidence::set_aside && !c.sought_as.empty())
-      steps.emplace_back(-c.lambda, short_name(c.id));
+  const std::string& with = d.stairs[k].with;
+  if (with.empty()) return "the world, fitted";
+  if (with[0] != '~') {
+    const auto cause =
+        std::find_if(d.causes.begin(), d.causes.end(), [&](const CauseEstimate& c) { return c.sought_as == with; });
+    return "+ " + short_name(cause == d.causes.end() ? with : cause->id);
   }
-  for (const auto& u : d.unexplained) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (unexplained)");
-  for (const auto& u : d.of_people) steps.emplace_back(-u.lambda, covariate_in_words(u.covariate) + " (people)");
-  std::stable_sort(steps.begin(), steps.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const CauseEstimate& c : d.causes) {
-    if (c.put_right_first) steps.insert(steps.begin(), {0, short_name(c.id)});
-  }
-  return k <= steps.size() ? "+ " + steps[k - 1].second : "";
+  const std::string covariate = with.substr(1);
+  const bool people = std::any_of(d.of_people.begin(), d.of_people.end(),
+                                  [&](const diagnosis::Unexplained& u) { return u.covariate == covariate; });
+  return "+ " + covariate_in_words(covariate) + (people ? " (people)" : " (unexplained)");
 }
 
 }  // namespace muster::report

@@ -115,7 +115,7 @@ HeldOutGain compared(const Unseen& unseen) {
 Stair stair_of(Unseen unseen) {
   unseen.after.setZero();
   const HeldOutGain all = compared(unseen);
-  return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95)};
+  return {all.rmse_before, std::sqrt(all.lower95), std::sqrt(all.upper95), {}};
 }
 
 }  // namespace muster::inference

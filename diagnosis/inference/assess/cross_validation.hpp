@@ -40,6 +40,7 @@ std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& c
 // Prediction error at left-out places, in units of a reading, with its interval over blocks.
 struct Stair {
   double rmse = 0, lower95 = 0, upper95 = 0;
+  std::string with;  // the finding that it has and the one before has not: a cause, or "~" and a covariate
 };
 // Of the `before` model.
 Stair stair_of(Unseen unseen);

@@ -54,6 +54,8 @@ void add_gains_of_blocks(const ModelState& state, KeptFolds& kept, Result& resul
   for (std::size_t many = 1; many <= state.terms.size(); ++many) {
     full = errors.first(many);
     result.stairs.push_back(stair_of(folds.unseen(full, full)));
+    const Term& term = state.terms[many - 1];
+    result.stairs.back().with = term.smooth() ? "~" + term.candidate->own() : term.id();
   }
   result.unseen = folds.unseen(base, full);
   result.held_out = compared(*result.unseen);
