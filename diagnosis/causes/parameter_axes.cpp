@@ -66,8 +66,8 @@ std::vector<double> evenly(double from, double to, int count) {
 }
 
 Axis logarithmic(const muster_param& p, double lower, double upper, const std::vector<double>& values, double step) {
-  lower = std::max(lower, p.min);
-  upper = std::min(upper, p.max);
+  lower = std::clamp(lower, p.min, p.max);
+  upper = std::clamp(upper, lower, p.max);
   Axis axis{p.name, true, std::log(lower), std::log(upper), step, {}, lower, upper};
   for (const double v : values) axis.values.push_back(std::log(std::clamp(v, lower, upper)));
   axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
@@ -86,7 +86,10 @@ std::optional<Axis> axis_over(const muster_param& p, const RecordedTime& time, c
     return all_around;
   }
   if (p.flags & MUSTER_LOG) {
-    if (unit == "s") return duration(p, time, shape, sampling);
+    if (unit == "s") {
+      const std::optional<Axis> axis = duration(p, time, shape, sampling);
+      return axis && axis->lower < axis->upper ? axis : std::nullopt;  // none where the data last too long for it
+    }
     if (unit == "Hz") return carrier(p);
     std::vector<double> values;
     for (const double v : evenly(std::log(p.min), std::log(p.max), 5)) values.push_back(std::exp(v));

@@ -16,7 +16,7 @@ struct Periodic {
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "whose links; without it, all"),
-      real("period", 60, 0.1, 1e6, "s", "of one swing").free().with(MUSTER_LOG),
+      real("period", 60, 0.1, 1e10, "s", "of one swing").free().with(MUSTER_LOG),
       real("amplitude", 0, 0, 40, "dB", "half from the lowest to the highest").free().with(MUSTER_LINEAR),
       real("phase", 0, -3.141592653589793, 3.141592653589793, "rad", "of the highest level at t = 0")
           .free()

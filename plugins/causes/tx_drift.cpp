@@ -20,7 +20,7 @@ struct TxDrift {
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),
       real("rate", 0, -1e5, 1e5, "dB/h", "slope at the start").free().with(MUSTER_LINEAR),
-      real("settling", 1e6, 1, 1e6, "s", "time in which the slope falls to 1/e").free().with(MUSTER_LOG),
+      real("settling", 1e6, 1, 1e10, "s", "time in which the slope falls to 1/e").free().with(MUSTER_LOG),
       real("start", 0, 0, 1e10, "s", "when it begins").free(),
   };
   static constexpr muster_cause cause = {

@@ -90,6 +90,25 @@ TEST(CauseShape, StartsOfTimesLieWithinTheSessions) {
   EXPECT_LT(swings->values.size(), 400u);
 }
 
+// Data of a month, and of half a year, for an author's cause that settles in eleven days at most: the second leave no
+// time to settle, and it stays as it is set.
+TEST(CauseShape, DataThatLastLongerThanItMaySettleLeaveItAsItIs) {
+  muster_param settling{};
+  settling.name = "settling";
+  settling.unit = "s";
+  settling.min = 1;
+  settling.max = 1e6;
+  settling.flags = MUSTER_LOG;
+  const auto over = [&](double days) {
+    std::vector<double> t;
+    for (int k = 0; k <= 1000; ++k) t.push_back(days * 86400 * k / 1000);
+    return axis_over(settling, RecordedTime(t), {}, true);
+  };
+  ASSERT_TRUE(over(30));
+  EXPECT_LT(over(30)->lower, over(30)->upper);
+  EXPECT_FALSE(over(180));
+}
+
 // One of the data's radios turns: a cause may be about it, whether the world lists it or not.
 TEST(CauseRows, ARadioThatOnlyTheDataNameIsOne) {
   const Scratch scratch;
