@@ -29,7 +29,7 @@ bool CauseEstimate::changes_in_time() const {
   return std::find(covariates.begin(), covariates.end(), "time") != covariates.end();
 }
 
-bool Unexplained::changes_in_time() const { return covariate.find("time") != std::string::npos; }
+bool Unexplained::changes_in_time() const { return inference::is_time(covariate); }
 
 const char* Diagnosis::verdict() const {
   if (!unexplained.empty()) return "unexplained";

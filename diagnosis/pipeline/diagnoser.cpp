@@ -24,6 +24,7 @@
 #include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_causes.hpp"
 #include "diagnosis/radio/links/measurement_geometry.hpp"
+#include "diagnosis/radio/links/moving_end.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -99,6 +100,9 @@ Diagnosis Diagnoser::run(const Diagnosis* given, bool by_itself) {
                setup_.layout->limits());
   for (const auto* more : {&setup_.sought.not_tested, &setup_.observed.untested})
     out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
+  const LinkReadings& readings = setup_.layout->readings();
+  if (!(readings.rx_yaw.empty() && readings.tx_yaw.empty()) && !moving_ends(readings).headings_known())
+    out.not_tested.emplace_back("heading: of some readings the data give only that of the radio that moves less");
   return watch_.stop() ? interrupted(std::move(out)) : out;
 }
 

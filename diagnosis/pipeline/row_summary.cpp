@@ -91,8 +91,7 @@ RowSummary row_summary(const inference::ModelState& state, const LinkLayout& lay
       first_of(rows, Eigen::Map<const VectorXd>(readings.tx_yaw.data(), static_cast<Index>(readings.tx_yaw.size())));
   out.rx_yaw =
       first_of(rows, Eigen::Map<const VectorXd>(readings.rx_yaw.data(), static_cast<Index>(readings.rx_yaw.size())));
-  if (!readings.rx_yaw.empty() || !readings.tx_yaw.empty()) {
-    const MovingEnds moving = moving_ends(readings);
+  if (const MovingEnds moving = moving_ends(readings); moving.headings_known()) {
     out.heading = first_of(rows, moving.heading);
     out.bearing = first_of(rows, moving.bearing);
   }

@@ -105,15 +105,6 @@ std::optional<Abscissa> about_radio(const RowSummary& rows, const CauseEstimate&
   return out;
 }
 
-Abscissa bearing(const RowSummary& rows) {
-  Abscissa out{"bearing of the other radio", "deg", none(rows)};
-  for (Index i = 0; i < out.values.size(); ++i) {
-    const Eigen::Vector3d way = rows.tx_at.col(i) - rows.rx_at.col(i);
-    out.values[i] = in_degrees(std::atan2(way.y(), way.x()) - rows.rx_yaw[i]);
-  }
-  return out;
-}
-
 }  // namespace
 
 double in_degrees(double angle) { return std::remainder(angle, 2 * M_PI) * 180 / M_PI; }
@@ -121,7 +112,8 @@ double in_degrees(double angle) { return std::remainder(angle, 2 * M_PI) * 180 /
 Abscissa abscissa_of(const RowSummary& rows, const CauseEstimate& c) {
   const std::string own = c.covariates.empty() ? "" : c.covariates.front();
   if (own == "time" && rows.t.size()) return {"time", "s", rows.t};
-  if (own == "bearing" && rows.rx_yaw.size()) return bearing(rows);
+  if (own == "bearing" && rows.bearing.size())
+    return {"bearing of the other radio", "deg", rows.bearing.unaryExpr(&in_degrees)};
   if (own == "logd")
     return {"distance", "m", (rows.tx_at - rows.rx_at).colwise().norm().transpose().cwiseMax(0.1), true};
   if (!rows.places_known) return {"effect as fitted", "dB", c.effect, false, {}, true};

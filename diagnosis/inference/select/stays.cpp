@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
-#include <string_view>
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/state/smooths.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
 namespace muster::inference {
 namespace {
 
 bool in_time(const Candidate& c) {
-  constexpr std::string_view time = "time";
-  return c.role.time_like || std::any_of(c.covariates.begin(), c.covariates.end(), [&](const std::string& covariate) {
-           return std::string_view(covariate).substr(0, time.size()) == time;
-         });
+  return c.role.time_like || std::any_of(c.covariates.begin(), c.covariates.end(), is_time);
 }
 
 class Stays {

@@ -14,6 +14,10 @@ Eigen::VectorXd scaled(const Eigen::VectorXd& x) {
 
 }  // namespace
 
+bool is_time(std::string_view covariate) {
+  return covariate == "time" || covariate.starts_with("time*") || covariate.starts_with("time_per_");
+}
+
 Eigen::MatrixXd cosines(const Eigen::VectorXd& x, int functions) {
   const Eigen::VectorXd u = scaled(x);
   Eigen::MatrixXd result(x.size(), functions);

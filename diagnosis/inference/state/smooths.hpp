@@ -2,6 +2,8 @@
 // that no named cause explains, whatever its origin.
 #pragma once
 
+#include <string_view>
+
 #include "diagnosis/inference/state/candidate.hpp"
 
 namespace muster::inference {
@@ -19,6 +21,9 @@ struct Factor {
   std::string name;
   std::vector<int> level;  // one a reading, from 0
 };
+
+// True for time, products with it, and time by itself at each level of a factor; not for a column such as "uptime".
+bool is_time(std::string_view covariate);
 
 // Cosines over the range of x, a half-wave each; one row a value.
 Eigen::MatrixXd cosines(const Eigen::VectorXd& x, int functions);

@@ -85,7 +85,7 @@ std::vector<Candidate> link_smooths(const LinkReadings& readings, const LinkColu
   std::vector<Candidate> result;
   result.push_back(inference::smooth_of("logd", geometry.log_distance, 6));
   result.back().role.level_like = true;
-  if (!(readings.rx_yaw.empty() && readings.tx_yaw.empty())) {
+  if (geometry.moving.headings_known()) {
     if (places_known) result.push_back(inference::smooth_of_angle("bearing", geometry.moving.bearing, 4));
     result.push_back(inference::smooth_of_angle("heading", geometry.moving.heading, 3));
   }

@@ -40,14 +40,14 @@ class Ways {
 MovingEnds moving_ends(const LinkReadings& readings) {
   const Index n = readings.size();
   const Ways ways(readings);
-  MovingEnds result{Eigen::MatrixXd(n, 2), Eigen::VectorXd::Zero(n), Eigen::VectorXd(n)};
+  MovingEnds result{Eigen::MatrixXd(n, 2), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Eigen::Vector3d to_tx = readings.tx_at.col(i) - readings.rx_at.col(i);
     const bool sends = ways.of(readings.tx[k]) > ways.of(readings.rx[k]);
     result.place.row(i) = (sends ? readings.tx_at : readings.rx_at).col(i).head<2>().transpose();
     const std::vector<double>& yaw = sends ? readings.tx_yaw : readings.rx_yaw;
-    if (!yaw.empty()) result.heading[i] = yaw[k];
+    result.heading[i] = yaw.empty() ? std::nan("") : yaw[k];
     const double sign = sends ? -1 : 1;
     result.bearing[i] = std::atan2(sign * to_tx.y(), sign * to_tx.x()) - result.heading[i];
   }

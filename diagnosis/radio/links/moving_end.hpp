@@ -8,7 +8,9 @@ namespace muster::diagnosis {
 
 struct MovingEnds {
   Eigen::MatrixXd place;             // x, y in m, one row a reading
-  Eigen::VectorXd heading, bearing;  // rad: of that end, 0 if unknown; of the other end relative to it
+  Eigen::VectorXd heading, bearing;  // rad: of that end; of the other end relative to it; NaN where it is unknown
+
+  bool headings_known() const { return heading.allFinite(); }
 };
 
 MovingEnds moving_ends(const LinkReadings& readings);

@@ -10,6 +10,12 @@
 namespace muster::inference {
 namespace {
 
+TEST(Smooths, AColumnThatIsCalledLikeTimeIsNoTime) {
+  for (const char* time : {"time", "time*position", "time_per_tx"}) EXPECT_TRUE(is_time(time)) << time;
+  for (const char* other : {"airtime", "uptime", "time_of_flight", "timer", "airtime*position", "speed"})
+    EXPECT_FALSE(is_time(other)) << other;
+}
+
 TEST(Bend, IsFlatOnOneSide) {
   const auto world = synthetic::world_of(synthetic::varied(7, 300));
   const Candidate c = bend("battery", world.battery);

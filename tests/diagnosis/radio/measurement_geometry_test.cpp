@@ -60,9 +60,14 @@ TEST(MovingEnds, HaveNoHeadingOfTheOtherEnd) {
   r.rx_at << 2, 2, 2, 2, 0, 0;
   r.rx_yaw = {0.7, 0.7};
   const MovingEnds ends = moving_ends(r);
-  EXPECT_EQ(ends.heading, Eigen::Vector2d(0, 0));
-  EXPECT_NEAR(ends.bearing[0], M_PI / 4, 1e-12);  // from the robot to the receiver
-  EXPECT_NEAR(ends.bearing[1], 3 * M_PI / 4, 1e-12);
+  EXPECT_FALSE(ends.headings_known());
+  EXPECT_TRUE(std::isnan(ends.heading[0]) && std::isnan(ends.bearing[0]));
+  r.tx_yaw = {0.2, -0.2};
+  const MovingEnds known = moving_ends(r);
+  EXPECT_TRUE(known.headings_known());
+  EXPECT_EQ(known.heading, Eigen::Vector2d(0.2, -0.2));
+  EXPECT_NEAR(known.bearing[0], M_PI / 4 - 0.2, 1e-12);  // from the robot to the receiver
+  EXPECT_NEAR(known.bearing[1], 3 * M_PI / 4 + 0.2, 1e-12);
 }
 
 }  // namespace
