@@ -116,7 +116,9 @@ bool keep_paths(XMLElement& element, const fs::path& folder, const fs::path& cop
   for (const auto& [name, value] : given) {
     std::error_code none;
     const fs::path path(value);
-    if (value.empty() || path.is_absolute() || fs::exists(copy / path, none)) continue;
+    if (value.empty() || path.is_absolute()) continue;
+    // Above the folder of the copy lies what is none of the world's, whatever it is called.
+    if (*path.lexically_normal().begin() != ".." && fs::exists(copy / path, none)) continue;
     if (path.has_parent_path() || name == "packages") keep(name, folder / path);
     if (name == "model") keep(name, folder / "models" / path) || keep(name, folder / "models" / (value + ".urdf"));
   }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -43,12 +45,19 @@ Json limit(double extended, double given) {
   return {{"value", extended}, {"at_most", std::sqrt(extended * extended + loss_allowed * lost) + 1e-6}};
 }
 
+bool same_contents(const fs::path& one, const fs::path& other) {
+  std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return a && b && std::equal(Bytes(a), Bytes(), Bytes(b), Bytes());
+}
+
+// A file of that name with other contents stays: another table may be checked by it.
 std::string copied(const fs::path& data, const fs::path& folder) {
   std::error_code none;
   fs::path to = folder / data.filename();
   if (fs::equivalent(data, to, none)) return to.filename().string();
-  if (fs::exists(to, none) && fs::file_size(to, none) != fs::file_size(data, none))
-    to = folder / ("data_" + data.filename().string());
+  for (std::string name = data.filename().string(); fs::exists(to, none) && !same_contents(data, to);)
+    to = folder / (name = "data_" + name);
   fs::copy_file(data, to, fs::copy_options::overwrite_existing, none);
   if (none) throw Error(Exit::io, to.string() + ": cannot be written: " + none.message());
   return to.filename().string();

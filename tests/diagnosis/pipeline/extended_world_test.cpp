@@ -18,6 +18,8 @@ TEST(ExtendedWorld, ReadsThePlanThatItsWorldReads) {
   const std::string wall = "name,x0[m],y0[m],x1[m],y1[m],height[m],material\nw,5,0,5,10,3,brick\n";
   const std::string readings = "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m],rssi[dBm]\na,b,0,5,10,5,-60\n";
   const auto table = scratch.write("readings.csv", readings);
+  fs::create_directories(scratch.path() / "out/shared");  // beside the copy: no file of the world's
+  scratch.write("out/shared/walls.csv", "name,x0[m],y0[m],x1[m],y1[m],height[m],material\nv,50,0,50,10,3,brick\n");
   for (const fs::path plan : {"../shared/walls.csv", "plans/walls.csv", "walls.csv"}) {
     fs::create_directories((scratch.path() / "own" / plan).lexically_normal().parent_path());
     scratch.write(("own" / plan).lexically_normal().string(), wall);
