@@ -152,12 +152,16 @@ ScatterByLevel scatter_of(const LawSources& s, const VectorXd& residual, const K
 
 // The likeliest of what is not found, where chance yields it with less than that probability; null if there is none.
 const inference::Check* nearest_left(const Diagnosis& found, double alpha) {
-  const auto least = std::min_element(found.checks.begin(), found.checks.end(),
-                                      [](const auto& a, const auto& b) { return a.log_p < b.log_p; });
-  if (least == found.checks.end() || least->log_p >= std::log(alpha)) return nullptr;
-  const bool told =
-      std::any_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) { return c.id == least->id; });
-  return told ? nullptr : &*least;
+  const auto is_told = [&](const std::string& id) {
+    return std::any_of(found.causes.begin(), found.causes.end(), [&](const auto& c) { return c.id == id; }) ||
+           std::any_of(found.unexplained.begin(), found.unexplained.end(),
+                       [&](const Unexplained& u) { return "~" + u.covariate == id; });
+  };
+  const inference::Check* least = nullptr;
+  for (const inference::Check& check : found.checks) {
+    if (check.log_p < (least ? least->log_p : std::log(alpha)) && !is_told(check.id)) least = &check;
+  }
+  return least;
 }
 
 std::string comes_near(const inference::Check& check) {

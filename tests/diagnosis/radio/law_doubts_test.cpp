@@ -31,6 +31,13 @@ TEST(LawDoubts, AnotherFieldIsInDoubtBesideWhatItMayHaveAbsorbed) {
   told.causes.resize(1);
   told.causes[0].id = "effect.tx_offset";
   EXPECT_EQ(doubt_of_field(told, field_of(60)), "");
+  // What is named and comes near for another radio hides nothing else.
+  told.checks.push_back({"effect.obstacle", "", inference::Kind::named, 25, std::log(2e-4)});
+  EXPECT_NE(doubt_of_field(told, field_of(60)).find("obstacle comes near"), std::string::npos);
+  Diagnosis beside = with_check("~time", 3e-5);
+  EXPECT_NE(doubt_of_field(beside, field_of(60)), "");
+  beside.unexplained = {{"time", 30, 60, {}}};
+  EXPECT_EQ(doubt_of_field(beside, field_of(60)), "");
 }
 
 // Five antennas of a robot that turned scattered as by outliers.
