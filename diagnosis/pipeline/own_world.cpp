@@ -213,8 +213,12 @@ class Judge {
     for (const Judged& other : all) {
       const double gap = best.evidence - other.evidence;
       if (&other != &best && gap < thresholds::own_world_open)
-        result.alternatives.push_back(
-            {other.world.hypothesis.cause->id, other.world.hypothesis.label(), {}, gap, 0, best.nats - other.nats});
+        result.alternatives.push_back({other.world.hypothesis.cause->id,
+                                       other.world.hypothesis.label(),
+                                       {},
+                                       gap,
+                                       std::nan(""),
+                                       best.nats - other.nats});
     }
     for (std::size_t j = 0; j < s_.base.paths.size(); ++j)
       out.parameters[s_.base.paths[j]] = best.world.values[static_cast<Index>(j)];

@@ -152,10 +152,10 @@ std::string undecided(const Diagnosis& d) {
   for (const Question& q : questions) {
     for (const Measurement& m : q.plans)
       rows.push_back({{q.pair},
-                      {fmt::format("{:.0f}", q.separability), true},
+                      {d_in_words(q.separability), true},
                       {m.say + (m.advised ? " (advised.csv lists its readings)" : "")},
                       {fmt::format("{:.0f}", m.predicted), true}});
-    rows.push_back({{q.pair}, {fmt::format("{:.0f}", q.separability), true}, {q.tell_apart}, {"not worked out", true}});
+    rows.push_back({{q.pair}, {d_in_words(q.separability), true}, {q.tell_apart}, {"not worked out", true}});
   }
   return out + "<div class=\"card\">" + table({{"pair"}, {"D now", true}, {"measure"}, {"D predicted", true}}, rows) +
          "</div>\n";

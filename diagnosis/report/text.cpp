@@ -47,7 +47,7 @@ std::string errors(const Diagnosis& d) {
   std::string text =
       fmt::format("Error on held-out {}: {} with the world as fitted", what_is_held_out(d), db(h.rmse_before));
   if (!d.stairs.empty()) text += fmt::format(" (95 %: {:.2f} to {:.2f})", d.stairs[0].lower95, d.stairs[0].upper95);
-  if (improved) text += fmt::format(", {} with the causes below", db(h.rmse_after));
+  if (improved) text += fmt::format(", {} with {}", db(h.rmse_after), what_was_found(d));
   text += std::isfinite(noise_floor(d)) ? ". The noise alone is " + db(noise_floor(d)) + "." : ".";
   if (improved && h.gain < 0)
     text += fmt::format(" The squared error rises by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, over {} blocks).", -h.gain,
@@ -73,14 +73,16 @@ std::string gains(const std::optional<inference::HeldOutGain>& of_blocks, const 
   all.insert(all.end(), elsewhere.begin(), elsewhere.end());
   std::vector<std::string> lines;
   if (!of_blocks) lines.push_back(why_none);
-  std::string none;
+  std::string none, against;
   for (const inference::Elsewhere& e : all) {
+    std::string& lost = is_refuted(e.held_out) ? against : none;
     if (e.held_out.gain >= 0)
       lines.push_back(gain_in_words(e.held_out, e.left_out));
     else
-      none += (none.empty() ? "" : ", ") + held_out_in_words(e.held_out, e.left_out);
+      lost += (lost.empty() ? "" : ", ") + held_out_in_words(e.held_out, e.left_out);
   }
   if (!none.empty()) lines.push_back(no_gain_in_words(none));
+  if (!against.empty()) lines.push_back(loss_in_words(against));
   std::string text;
   for (const std::string& line : lines) text += entry(text.empty() ? "gain" : "", line);
   return text;
@@ -141,7 +143,9 @@ std::string undecided(const Diagnosis& d) {
   std::string text = heading("Undecided, and what to measure next");
   std::set<std::string> already;  // of one cause, beside several alternatives
   for (const Question& q : questions) {
-    text += wrapped(fmt::format("{}: D {:.0f}, {}.", q.pair, q.separability, judged(q.separability)), 2, 2);
+    text += wrapped(fmt::format("{}: D {}{}.", q.pair, d_in_words(q.separability),
+                                std::isnan(q.separability) ? "" : ", " + judged(q.separability)),
+                    2, 2);
     if (already.insert(q.tell_apart).second) text += wrapped("- " + q.tell_apart, 4, 6);
     for (const Measurement& m : q.plans)
       text += wrapped(fmt::format("- {}: predicted D {:.0f}{}{}", m.say, m.predicted,

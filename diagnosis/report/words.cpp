@@ -65,13 +65,14 @@ Confidence confidence_of(const CauseEstimate& cause) {
 
 std::string why_unconfirmed(const CauseEstimate& cause) {
   if (!cause.held_out) return "no data could be held out";
+  if (is_refuted(*cause.held_out)) return "the error at what was held out is larger with it";
   if (!(cause.held_out->lower95 > 0)) return "the interval of the gain includes 0";
   return fmt::format("the gain in {} blocks of space may be chance", cause.held_out->blocks);
 }
 
 std::string why_no_gain(const CauseEstimate& cause) {
   if (cause.status != inference::Status::named) return "not measured: not significant beside the other causes";
-  return is_law(cause) ? "none: it changes the scatter of readings, not their mean" : too_few_blocks;
+  return is_law(cause) ? "none: judged by how readings are distributed, not by their mean" : too_few_blocks;
 }
 
 int count_of(const Diagnosis& d, Confidence confidence) {
@@ -85,6 +86,10 @@ std::string judged(double separability) {
   return separability < inference::thresholds::inseparable ? "not distinguishable"
          : separability < inference::thresholds::decided   ? "weakly distinguishable"
                                                            : "distinguishable";
+}
+
+std::string d_in_words(double separability) {
+  return std::isnan(separability) ? "not worked out" : fmt::format("{:.0f}", separability);
 }
 
 std::string rounded(double value, double half) {
@@ -176,8 +181,9 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
   if (alternatives.empty()) return "none: the readings exclude all other causes";
   std::string out;
   for (const inference::Alternative& r : alternatives)
-    out += fmt::format("{}{}, {}, D {:.0f}: {}", out.empty() ? "" : "; ", with_label(r.id, r.label),
-                       likelihood_in_words(r.evidence_gap), r.separability, judged(r.separability));
+    out += fmt::format(
+        "{}{}, {}{}", out.empty() ? "" : "; ", with_label(r.id, r.label), likelihood_in_words(r.evidence_gap),
+        std::isnan(r.separability) ? "" : fmt::format(", D {:.0f}: {}", r.separability, judged(r.separability)));
   return out;
 }
 
@@ -200,7 +206,7 @@ std::string noise_in_words(const noise::Covariance& noise) {
 }
 
 bool is_in_headline(const inference::Alternative& r) {
-  return r.separability < inference::thresholds::inseparable && r.evidence_gap < inference::thresholds::open_nats &&
+  return !(r.separability >= inference::thresholds::inseparable) && r.evidence_gap < inference::thresholds::open_nats &&
          r.id[0] != '~';
 }
 
@@ -256,7 +262,14 @@ std::string no_gain_in_words(const std::string& held_out) {
   return "none to be seen: held-out data neither confirm nor refute it (" + held_out + ")";
 }
 
+bool is_refuted(const inference::HeldOutGain& h) { return h.upper95 < 0; }
+
+std::string loss_in_words(const std::string& held_out) {
+  return "none: the error at what was held out is larger with it, beyond chance (" + held_out + ")";
+}
+
 std::string gain_in_words(const inference::HeldOutGain& h, const std::string& left_out) {
+  if (is_refuted(h)) return loss_in_words(held_out_in_words(h, left_out));
   if (h.gain < 0) return no_gain_in_words(held_out_in_words(h, left_out));
   return fmt::format("{:.2f} -> {} on held-out data; squared error falls by {:.2f} dB2 (95 %: {:.2f} to {:.2f}, {} {})",
                      h.rmse_before, db(h.rmse_after), h.gain, h.lower95, h.upper95, h.blocks, left_out);
@@ -266,6 +279,8 @@ std::string what_is_held_out(const Diagnosis& d) { return d.seen.places_known ? 
 
 std::string db(double value) { return fmt::format("{:.2f} dB", value); }
 
+std::string what_was_found(const Diagnosis& d) { return d.named() ? "the causes below" : "what is found below"; }
+
 std::string errors_elsewhere(const Diagnosis& d) {
   std::string text;
   for (const inference::Elsewhere& e : d.elsewhere) {
@@ -273,7 +288,7 @@ std::string errors_elsewhere(const Diagnosis& d) {
     text += fmt::format("{}With {} held out in turn ({}): {}", text.empty() ? "" : " ", e.left_out, h.blocks,
                         db(h.rmse_before));
     const bool improved = d.named() || !d.unexplained.empty();
-    text += improved ? fmt::format(", {} with the causes below.", db(h.rmse_after)) : ".";
+    text += improved ? fmt::format(", {} with {}.", db(h.rmse_after), what_was_found(d)) : ".";
   }
   return text;
 }

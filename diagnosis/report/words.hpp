@@ -26,8 +26,9 @@ std::string why_unconfirmed(const CauseEstimate& cause);
 std::string why_no_gain(const CauseEstimate& cause);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 
-double tenths(double value);              // to one decimal, never -0.0
-std::string judged(double separability);  // "not distinguishable", "weakly distinguishable", "distinguishable"
+double tenths(double value);                  // to one decimal, never -0.0
+std::string judged(double separability);      // "not distinguishable", "weakly distinguishable", "distinguishable"
+std::string d_in_words(double separability);  // "6", or "not worked out"
 
 // Rounded to the digits justified by its half interval; without one, to four.
 std::string rounded(double value, double half_interval);
@@ -70,6 +71,11 @@ std::string held_out_in_words(const inference::HeldOutGain& gain, const std::str
 // Of gains below 0, on what was held out.
 std::string no_gain_in_words(const std::string& held_out);
 
+// True of a gain below 0 beyond chance: with 95 %.
+bool is_refuted(const inference::HeldOutGain& gain);
+// Of such ones, on what was held out.
+std::string loss_in_words(const std::string& held_out);
+
 // A gain on held-out data; of one below 0 that it is none.
 std::string gain_in_words(const inference::HeldOutGain& gain, const std::string& left_out);
 
@@ -84,6 +90,8 @@ double noise_floor(const Diagnosis& diagnosis);
 std::string db(double value);
 // "places", or "distances" for data without places.
 std::string what_is_held_out(const Diagnosis& diagnosis);
+// "the causes below", or other words where none of it is a cause.
+std::string what_was_found(const Diagnosis& diagnosis);
 // Errors of the world on held-out radios and runs; empty unless there are several.
 std::string errors_elsewhere(const Diagnosis& diagnosis);
 // The averaging of readings to rows, as text.

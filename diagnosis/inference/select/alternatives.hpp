@@ -9,7 +9,7 @@ struct Alternative {
   std::string id, label;  // of a smooth: ~ and its covariate
   Eigen::VectorXd theta;
   double evidence_gap = 0;  // nats by which the finding is ahead
-  double separability = 0;  // D: whitened energy of the finding left after the alternative's best fit
+  double separability = 0;  // D: whitened energy of the finding left after the alternative's best fit; NaN: unknown
   // The gap's log-likelihood part, nats, without the price of places and strengths; of inseparable causes only.
   double by_readings = 0;
 };

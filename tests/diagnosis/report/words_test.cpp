@@ -80,6 +80,11 @@ TEST(Gate, IsIsSaidOnlyWhereHeldOutDataShowIt) {
   EXPECT_TRUE(says(text_of(with(sure), {"hall", "a.csv"}), "(1) it is effect.unmapped_wall"));
   const CauseEstimate touching = wall(inference::Status::named, inference::HeldOutGain{3.5, 3.4, 0.7, -0.1, 1.5, 21});
   EXPECT_EQ(confidence_of(touching), Confidence::unconfirmed);
+  const CauseEstimate refuted = wall(inference::Status::named, inference::HeldOutGain{3.5, 3.8, -2, -3, -1, 21});
+  EXPECT_EQ(confidence_of(refuted), Confidence::unconfirmed);
+  for (const char* words :
+       {"gain        none: the error at what was held out is larger", "Not confirmed on held-out data: the error"})
+    EXPECT_TRUE(says(text_of(with(refuted), {"hall", "a.csv"}), words)) << words;
   const CauseEstimate of_few = wall(inference::Status::named, inference::HeldOutGain{3.5, 2.5, 6, 5.1, 7, 4});
   EXPECT_EQ(confidence_of(of_few), Confidence::unconfirmed);
   EXPECT_EQ(why_unconfirmed(of_few), "the gain in 4 blocks of space may be chance");
@@ -252,28 +257,28 @@ TEST(Text, GainsWithRadiosAndRunsNotSeenStandBesideThoseOfPlaces) {
   EXPECT_EQ(json["unexplained"][0]["elsewhere"][0]["blocks"], 4);
 }
 
-// All accepted terms, named or not; clips and laws are no steps.
-TEST(Steps, AreInTheOrderOfStrength) {
+// Each accepted term, named or not, in the order in which it was added; under the name that it has in the end.
+TEST(Steps, AreNamedAfterWhatWasAdded) {
   Diagnosis d = with(wall(inference::Status::named, {}));
   d.causes[0].sought_as = d.causes[0].id;
-  CauseEstimate drift = d.causes[0];
-  drift.id = drift.sought_as = "effect.drift";
-  drift.lambda = 80;
-  CauseEstimate fading = d.causes[0];
-  fading.id = "effect.fading_law";
-  fading.sought_as = "";
-  fading.lambda = 200;
-  d.causes.insert(d.causes.begin(), {fading, drift});
-  d.unexplained = {{"battery", 30, 60, {}}};
-  const char* expected[] = {"the world, fitted", "+ drift", "+ the column battery (unexplained)", "+ unmapped wall",
-                            ""};
-  for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(name_of_step(d, k), expected[k]) << k;
+  CauseEstimate swapped = d.causes[0];
+  swapped.id = "effect.label_swap";
+  swapped.sought_as = "effect.tx_misplaced";
+  swapped.lambda = 10;
+  d.causes.push_back(swapped);
+  d.unexplained = {{"battery", 30, 60, {}}, {"x", 90, 180, {}}};  // the second stands beside, and is no step
+  d.of_people = {{"time", 20, 40, {}}};
+  d.stairs = {{4, 3, 5, ""},           {3.8, 3, 5, "effect.drift"}, {3.5, 3, 5, "effect.tx_misplaced"},
+              {3.4, 3, 5, "~battery"}, {3.3, 3, 5, d.causes[0].id}, {3.2, 3, 5, "~time"}};
+  const char* expected[] = {"the world, fitted", "+ drift",        "+ label swap", "+ the column battery (unexplained)",
+                            "+ unmapped wall",   "+ time (people)"};
+  for (std::size_t k = 0; k < d.stairs.size(); ++k) EXPECT_EQ(name_of_step(d, k), expected[k]) << k;
 }
 
 TEST(Text, NothingFoundIsAdequate) {
   Diagnosis d;
   d.held_out = inference::HeldOutGain{2.5, 2.5, 0, 0, 0, 12};
-  d.stairs = {{2.5, 2.2, 2.8}};
+  d.stairs = {{2.5, 2.2, 2.8, ""}};
   const std::string text = text_of(d, {"hall", "a.csv"});
   EXPECT_TRUE(says(text, "hall is adequate: nothing was found beyond chance")) << text;
   EXPECT_FALSE(says(text, "Cause"));
