@@ -73,13 +73,14 @@ double won(const ScoredCandidate& lead) {
 }
 
 // Prefers to a function of time an observed column that does as well for its number of functions; to a cause in time
-// one that does better, unless it is a cause, too.
+// one that does better beyond what prefers names.
 void prefer_observed(std::vector<ScoredCandidate>& pool) {
   const Candidate& first = pool[0].candidate();
   if (!first.role.time_like) return;
   const auto chosen = std::find_if(pool.begin(), pool.end(), [&](const ScoredCandidate& lead) {
-    const bool unnamed = first.kind == Kind::named && lead.candidate().kind == Kind::smooth;
-    return lead.candidate().role.observed && won(lead) >= won(pool[0]) + (unnamed ? 2 * thresholds::unnamed_nats : 0);
+    if (!lead.candidate().role.observed) return false;
+    return won(lead) >= won(pool[0]) &&
+           (first.kind != Kind::named || lead.evidence >= pool[0].evidence + thresholds::unnamed_nats);
   });
   if (chosen != pool.end()) to_front(pool, chosen);
 }
