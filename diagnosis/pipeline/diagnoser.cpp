@@ -17,6 +17,7 @@
 #include "diagnosis/pipeline/relative_to_given.hpp"
 #include "diagnosis/pipeline/row_summary.hpp"
 #include "diagnosis/pipeline/setup.hpp"
+#include "diagnosis/pipeline/time_or_place.hpp"
 #include "diagnosis/pipeline/unstated_field.hpp"
 #include "diagnosis/planning/measurement_plans.hpp"
 #include "diagnosis/planning/second_station.hpp"
@@ -158,6 +159,7 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
     const auto [finding, candidate] = simplest(f, *cause, causes, state, coefficients);
     out.causes.push_back(cause_estimate(finding, *candidate));
     out.causes.back().sought_as = f.id;
+    out.causes.back().doubt = doubt_by_place(*candidate, f.alternatives, causes.found);
     out.causes.back().effect = effect_of(state, candidate->candidate, finding);
     places.push_back(places_of(*candidate->shape, finding));
     give_files(*candidate->shape, setup_.data, out.causes.back());
