@@ -13,4 +13,7 @@ inline bool is_due(double time, double dt, double period) {
   return periods_in(time, period) > periods_in(time - dt, period);
 }
 
+// True in an instance's first step of a run, whose time is its period `dt`, every times the tick of the world.
+inline bool is_first_step(double time, double dt) { return time < 1.5 * dt; }
+
 }  // namespace muster

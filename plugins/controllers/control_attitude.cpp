@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "description/world_robots.hpp"
+#include "plugins/periods.hpp"
 #include "plugins/table_times.hpp"
 #include "robot_model.hpp"
 
@@ -50,7 +51,8 @@ struct ControlAttitude {
     const double tick = k.time() / static_cast<double>(k.tick());
     const double now = k.time() - tick / 2;  // commands hold over the tick: of two, that for most of it
     *k[command] = {0, 0, 0, 0};
-    if (k.tick() == 1) warn_of_units(k);
+    const bool is_first = is_first_step(k.time(), k.dt());
+    if (is_first) warn_of_units(k);
     double last = -std::numeric_limits<double>::infinity(), second = last, most = 0;  // s, s, N
     std::size_t number = 0, own = 0, first = 0;
     for (const Row& row : k[commands]) {
@@ -66,8 +68,8 @@ struct ControlAttitude {
       if (row.t <= now) *k[command] = row.asked;
     }
     if (own == 0) throw BadInput("the file has no commands for it");
-    if (k.tick() == 1 && most > 0 && most < little * weight) warn_of_little(k, most, first);
-    if (k.tick() == 1 && last >= 0)  // what was asked before the run holds
+    if (is_first && most > 0 && most < little * weight) warn_of_little(k, most, first);
+    if (is_first && last >= 0)  // what was asked before the run holds
       times.warn_of(
           k, {k[commands][first].t, second, last, first},
           "the commands of robot '" + std::string(k.name("robot", static_cast<std::size_t>(k[robot]))) + "' are",

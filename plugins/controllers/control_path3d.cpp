@@ -3,6 +3,7 @@
 #include <muster/plugin.hpp>
 #include <string>
 
+#include "plugins/periods.hpp"
 #include "plugins/table_times.hpp"
 #include "robot_model.hpp"
 #include "timed_path.hpp"
@@ -63,7 +64,7 @@ struct ControlPath3d {
   }
 
   void step(const Step& k) const {
-    if (k.tick() == 1) {
+    if (is_first_step(k.time(), k.dt())) {
       warn_of_depth(k);
       warn_of_distance(k);
     }

@@ -5,6 +5,7 @@
 
 #include "description/world_robots.hpp"
 #include "planar.hpp"
+#include "plugins/periods.hpp"
 
 namespace {
 
@@ -63,7 +64,7 @@ struct PhysicsPlanar {
         planar::Asked of_robot{i < asked.size() ? asked[i] : Drive{0, 0, 0, 0}};
         if (steering && i < k[*steering].size()) of_robot.steering = k[*steering][i];
         if (rear_drive && i < k[*rear_drive].size()) of_robot.rear = k[*rear_drive][i];
-        if (k.tick() <= 1) warn_of_depth(k, i, body.pose);
+        if (is_first_step(k.time(), k.dt())) warn_of_depth(k, i, body.pose);
         body = planar::stepped(body, of_robot, *motors, k[acceleration], k.dt());
       }
       k[pose][i] = body.pose;

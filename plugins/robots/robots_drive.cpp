@@ -8,6 +8,7 @@
 
 #include "description/file_text.hpp"
 #include "description/world_robots.hpp"
+#include "plugins/periods.hpp"
 #include "plugins/world_folder.hpp"
 #include "ramp.hpp"
 
@@ -83,7 +84,7 @@ struct RobotsDrive {
       const auto* motors = robots.drive_of(model);
       if (i >= commands.size() || !k.alive("robot", i)) continue;
       if (!motors || !motors->mecanum) warn_of_sideways(k, i);
-      if (motors && k.tick() <= 1) warn_of_slow(k, i, commands[i], *motors);
+      if (motors && is_first_step(k.time(), k.dt())) warn_of_slow(k, i, commands[i], *motors);
       if (motors && motors->steering)
         steer(k, i, commands[i], *motors);
       else if (motors && motors->mecanum)

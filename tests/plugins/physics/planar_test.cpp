@@ -20,6 +20,19 @@ TEST(Planar, ArcIsExact) {
   EXPECT_NEAR(wheels.right - wheels.left, 0.5 * 8 * 0.21 / 0.05, 1e-9);
 }
 
+TEST(Planar, ARobotBelowTheGroundIsWarnedOfAlsoWhereItStepsEverySecondTick) {
+  for (const char* every : {"1", "2"}) {
+    Folder folder;
+    Simulation run = world_of(folder, R"(<robot name="a" at="0 0 -1"/><test.wheels v="0.3"/><physics.planar every=")" +
+                                          std::string(every) + "\"/>");
+    run_to(run, 6);
+    int warned = 0;
+    for (const Event& event : run.events())
+      warned += event.message.find("'a' starts 1000 mm below the ground") != std::string::npos;
+    EXPECT_EQ(warned, 1) << every;
+  }
+}
+
 // The step takes the command at its middle: the error falls with the square of the step.
 TEST(Planar, IsOfSecondOrder) {
   std::vector<Pose> ends;

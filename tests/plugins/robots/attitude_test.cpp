@@ -267,14 +267,15 @@ TEST(Attitude, AFileWithoutCommandsForTheRobotIsRefused) {
 
 // As from an autopilot that counts thrust from 0 to 1.
 TEST(AttitudeTable, ThrustThatNeverLiftsIsWarnedOf) {
-  const auto warned = [](const std::string& thrust) {
+  const auto warned = [](const std::string& thrust, const std::string& every = "1") {
     const Folder folder;
     Simulation run = world_of(folder,
                               "<robot name=\"r\" model=\"hummingbird\" at=\"0 0 2\"/><physics.simbody/>"
-                              "<robots.attitude/><control.attitude robot=\"r\" file=\"s.csv\"/>",
+                              "<robots.attitude/><control.attitude robot=\"r\" file=\"s.csv\" every=\"" +
+                                  every + "\"/>",
                               {{"s.csv", "t[s],cmd_thrust[N],cmd_roll[rad],cmd_pitch[rad],cmd_yaw_rate[rad/s]\n0," +
                                              thrust + ",0,0,0\n0.1,0.2,0,0,0\n"}});
-    run.step();
+    for (int k = 0; k < 4; ++k) run.step();
     for (const Event& event : run.events())
       if (event.message.find("cmd_thrust") != std::string::npos)
         return event.message.substr(event.message.rfind("s.csv"));
@@ -287,6 +288,7 @@ TEST(AttitudeTable, ThrustThatNeverLiftsIsWarnedOf) {
   EXPECT_EQ(warned("5"),
             "s.csv:2:3: cmd_thrust is at most 5 N, and hovering takes 7.02 N, so that robot 'r' never flies; expected "
             "newtons");
+  EXPECT_EQ(warned("5", "2"), warned("5"));
   EXPECT_EQ(warned("7.1"), "");
 }
 

@@ -47,6 +47,18 @@ TEST(Drive, SaturatesWithoutChangingTheTurningRadius) {
   EXPECT_NEAR(v / w, 0.5, 1e-12);
 }
 
+TEST(Drive, ACommandFarBeyondItIsWarnedOfAlsoWhereItStepsEverySecondTick) {
+  for (const char* every : {"1", "2"}) {
+    Folder folder;
+    Simulation run = driven(folder, "0,50,0\n", "<robots.drive every=\"" + std::string(every) + "\"/>");
+    for (int tick = 0; tick < 6; ++tick) run.step();
+    int warned = 0;
+    for (const Event& event : run.events())
+      warned += event.message.find("'r' is asked for 50 m/s, and its drive reaches 1 m/s") != std::string::npos;
+    EXPECT_EQ(warned, 1) << every;
+  }
+}
+
 TEST(Drive, NoiseHasTheDeclaredVariance) {
   Folder folder;
   Simulation run = driven(folder, "0,0.2,0.1\n", "<robots.drive noise=\"0.1\"/>");

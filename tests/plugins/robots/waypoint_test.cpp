@@ -70,13 +70,14 @@ TEST(Waypoint, ColumnsThatNobodyReadsAreRefused) {
 
 // Way points of PX4, whose z is down.
 TEST(Waypoint, PlacesBelowTheGroundAreWarnedOf) {
-  const auto warnings = [](const std::string& path) {
+  const auto warnings = [](const std::string& path, const std::string& every = "1") {
     Folder folder;
     Simulation run = world_of(folder,
                               "<robot name=\"r\" model=\"hummingbird\" at=\"0 0 0\"/><test.turner/>"
-                              "<control.path3d robot=\"r\" path=\"path.csv\"/>",
+                              "<control.path3d robot=\"r\" path=\"path.csv\" every=\"" +
+                                  every + "\"/>",
                               {{"path.csv", path}});
-    run.step();
+    for (int k = 0; k < 4; ++k) run.step();
     std::string result;
     for (const auto& event : run.events())
       if (event.message.find("path.csv:") != std::string::npos) result += folder.inside(event.message) + '\n';
@@ -86,6 +87,8 @@ TEST(Waypoint, PlacesBelowTheGroundAreWarnedOf) {
   EXPECT_EQ(warnings("x[m],y[m],z[m]\n0,0,0\n3,0,-1.5\n3,2,-2\n"),
             "warning: path.csv:3:5: z = -1.5 m is below the ground, in 2 way points; is z down here, as in PX4 (NED)? "
             "expected metres up, and x east, y north\n");
+  const std::string below = "x[m],y[m],z[m]\n0,0,-1.5\n";
+  EXPECT_EQ(warnings(below, "2"), warnings(below));
 }
 
 TEST(Waypoint, LoopsWhereAsked) {
