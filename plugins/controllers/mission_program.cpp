@@ -113,7 +113,7 @@ class Compiler {
     expect_attributes(element, {"seconds", "message", "from", "patience"});
     expect_nothing_inside(element);
     const auto* seconds = element.attribute("seconds");
-    if (seconds && (element.attribute("message") || element.attribute("patience")))
+    if (seconds && (element.attribute("message") || element.attribute("from") || element.attribute("patience")))
       refuse(element.place, "<wait> has seconds=\"...\" and more; expected seconds=\"...\" alone, or message=\"...\"");
     if (seconds) {
       add(Act::wait, element).number = number(*seconds, 0, long_time, "s");
@@ -229,6 +229,10 @@ class Compiler {
     }
     expect_attributes(element, {"message", "from", "link", "below", "above"});
     const XmlAttribute& to = needed(element, "link", "link=\"RADIO\" with below or above, or message=\"...\"");
+    if (const auto* from = element.attribute("from"))
+      refuse(from->place,
+             "<if link=\"...\"> has \"from\", which is of a message; expected link=\"...\" with below or "
+             "above, or message=\"...\" with from");
     const auto *below = element.attribute("below"), *above = element.attribute("above");
     if (!below == !above) refuse(element.place, "<if link=\"...\"> needs one of below=\"dBm\" and above=\"dBm\"");
     Instruction& made = add(Act::test_link, element);

@@ -219,6 +219,12 @@ TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_EQ(
       refused("<wait/>"),
       "2:1: <wait> has no attribute \"message\", which it needs; expected seconds=\"...\", or the text of a message");
+  EXPECT_EQ(refused("<wait seconds='1' from='base'/>"),
+            "2:1: <wait> has seconds=\"...\" and more; expected seconds=\"...\" alone, or message=\"...\"");
+  EXPECT_EQ(
+      refused("<choose>\n<if link='base' below='-60' from='base'><wait seconds='1'/></if>\n</choose>"),
+      "3:29: <if link=\"...\"> has \"from\", which is of a message; expected link=\"...\" with below or above, or "
+      "message=\"...\" with from");
   EXPECT_EQ(refused("<say text='x' to='bas'/>"),
             "2:19: no radio is called \"bas\"; expected one of base, scout; did you mean \"base\"?");
   EXPECT_EQ(refused("<follow radio='base'/>"),
