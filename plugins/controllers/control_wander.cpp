@@ -30,9 +30,18 @@ struct ControlWander {
         period(s.value("period")),
         ramp(s.value("ramp")),
         stream(s.stream("wander")),
-        command(s.write<Command>("robot/*/command")) {}
+        command(s.write<Command>("robot/*/command")) {
+    check(s.param("slowest"), s.param("fastest"), s.param("period"), s.param("ramp"));
+  }
+
+  static void check(double slowest, double fastest, double period, double ramp) {
+    if (slowest > fastest) throw BadInput("attribute \"slowest\": is above \"fastest\"; expected at most that");
+    if (ramp > period)  // a command would jump on its way, to the next draw
+      throw BadInput("attribute \"ramp\": is above \"period\"; expected at most that");
+  }
 
   void step(const Step& k) const {
+    check(k[slowest], k[fastest], k[period], k[ramp]);  // they may have been set
     const double draws = std::floor(k.time() / k[period] + 1e-9), since = k.time() - draws * k[period];
     const double share = since < k[ramp] ? std::max(0.0, since / k[ramp]) : 1;
     const auto number = static_cast<uint64_t>(draws);

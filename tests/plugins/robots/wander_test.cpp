@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,6 +47,24 @@ TEST(Wander, DrawsWithinItsBoundsAndHoldsForAPeriod) {
   EXPECT_LE(sharpest, 1.5);
   EXPECT_GT(sharpest, 1.4);
   EXPECT_NEAR(sum / drawn, 0.2, 3 * 0.6 / std::sqrt(12.0 * drawn));
+}
+
+TEST(Wander, BoundsInTheWrongOrderAndARampBeyondThePeriodAreRefused) {
+  const auto refused = [](const std::string& attributes) -> std::string {
+    const Folder folder;
+    try {
+      world_of(folder, a + "<test.turner/><control.wander " + attributes + "/>");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::invalid_input);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refused("slowest=\"0.7\""),
+              testing::HasSubstr("attribute \"slowest\": is above \"fastest\"; expected at most that"));
+  EXPECT_THAT(refused("period=\"0.2\""),
+              testing::HasSubstr("attribute \"ramp\": is above \"period\"; expected at most that"));
+  EXPECT_EQ(refused("slowest=\"0.6\" period=\"0.25\""), "");
 }
 
 TEST(Wander, GoesByNameAndSeedAndByNothingElse) {
