@@ -34,12 +34,12 @@ std::vector<std::string> awaited_by(const XmlElement& element) {
 }
 
 bool may_talk(const std::string& plugin) {
-  static const std::vector<std::string> silent = {"physics.", "radio.",   "network.", "robots.",
-                                                  "sensors.", "observe.", "routing.", "data."};
-  static const std::vector<std::string> known = {"control.beacon",     "control.connectivity", "control.goal2d",
-                                                 "control.waypoint",   "control.steady",       "control.wander",
-                                                 "control.car",        "control.strafe",       "control.path3d",
-                                                 "control.velocity3d", "control.keep_clear",   "control.attitude"};
+  static const std::vector<std::string> silent = {"physics.", "radio.",   "network.", "robots.", "sensors.",
+                                                  "observe.", "routing.", "data.",    "effect.", "cause."};
+  static const std::vector<std::string> known = {
+      "control.beacon",     "control.connectivity", "control.goal2d",   "control.waypoint", "control.steady",
+      "control.wander",     "control.car",          "control.strafe",   "control.path3d",   "control.velocity3d",
+      "control.keep_clear", "control.attitude",     "control.navigate", "control.recorded", "control.track"};
   const auto begins = [&](const std::string& prefix) { return plugin.rfind(prefix, 0) == 0; };
   return std::none_of(silent.begin(), silent.end(), begins) &&
          std::find(known.begin(), known.end(), plugin) == known.end();

@@ -15,6 +15,14 @@ TEST_F(Missions, AMessageThatNobodySaysIsWarnedOf) {
                            "say it; expected <say text=\"go\"/> or an <order>")));
 }
 
+TEST_F(Missions, AMessageThatNobodySaysIsWarnedOfBesidePluginsThatSayNothing) {
+  folder.write("log.csv", "t[s],robot,v[m/s],w[rad/s]\n0,other,0.1,0\n1,other,0,0\n");
+  const std::string silent =
+      "<control.recorded robot='other' file='log.csv'/><effect.rx_offset radio='base' offset='3'/>";
+  EXPECT_THAT(said(run("<wait message='go'/>", silent, scout + "<robot name='other' at='5 5 0'/>"), "mission"),
+              ElementsAre(testing::HasSubstr("<wait> waits for \"go\", and no mission and no orders of this world")));
+}
+
 TEST_F(Missions, StepsThatAreNeverComeToAreWarnedOf) {
   EXPECT_THAT(said(run("<patrol><place at='1 0'/></patrol>\n<say text='done'/>"), "mission"),
               ElementsAre(testing::HasSubstr("mission.xml:3:1: <say> is never come to: <patrol> (")));
