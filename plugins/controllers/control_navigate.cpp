@@ -27,7 +27,7 @@ std::string metres(double value) {
 }
 
 struct ControlNavigate {
-  static constexpr auto id = "control.navigate/1";
+  static constexpr auto id = "control.navigate/2";
   static constexpr auto summary =
       "plans a robot's way on a roadmap (A*), follows it and plans anew where it is blocked";
   static constexpr auto manual =
@@ -229,7 +229,7 @@ struct ControlNavigate {
     if (m.now.status == on_its_way) follow(k, m, to, away);
   }
 
-  // True where the laser saw something that it had not, or something was forgotten.
+  // True where the laser saw something that it had not: what is forgotten blocks no way.
   bool look(const Step& k, Memory& m) const {
     if (!scan) return false;
     m.seen.forget(k.time(), k[forget]);
@@ -245,7 +245,9 @@ struct ControlNavigate {
   Goal2d goal_of(const Step& k, Memory& m) const {
     if (goal) return *k[*goal];
     const auto all = k[*goals];
-    if (m.now.status == there && m.now.next < static_cast<double>(all.size())) ++m.now.next, m.now.status = no_goal;
+    const bool stays = k[loop] != 0 && all.size() == 1;  // the next goal is where it is
+    if (m.now.status == there && m.now.next < static_cast<double>(all.size()) && !stays)
+      ++m.now.next, m.now.status = no_goal;
     if (m.now.next >= static_cast<double>(all.size()) && k[loop] != 0) m.now.next = 0;
     if (m.now.next >= static_cast<double>(all.size())) return {null(), null(), null()};
     const Waypoint& to = all[static_cast<std::size_t>(m.now.next)];

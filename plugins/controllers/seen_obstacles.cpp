@@ -30,10 +30,8 @@ bool SeenObstacles::see(const Point& echo, double time) {
   return is_new;
 }
 
-bool SeenObstacles::forget(double time, double forget) {
-  const std::size_t before = seen_.size();
+void SeenObstacles::forget(double time, double forget) {
   for (auto at = seen_.begin(); at != seen_.end();) at = time - at->second.t > forget ? seen_.erase(at) : std::next(at);
-  return seen_.size() < before;
 }
 
 bool SeenObstacles::is_free(const Point& from, const Point& to, const Point& start, double radius) const {

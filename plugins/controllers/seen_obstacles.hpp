@@ -22,8 +22,8 @@ class SeenObstacles {
 
   // Takes an echo. True if none was remembered in its cell.
   bool see(const roadmap::Point& echo, double time);
-  // Drops what was not seen for `forget` seconds. True if it dropped any.
-  bool forget(double time, double forget);
+  // Drops what was not seen for `forget` seconds.
+  void forget(double time, double forget);
 
   // True where the straight piece keeps `radius` from every echo; from one that is nearer to the start already, it is
   // enough to come no nearer.

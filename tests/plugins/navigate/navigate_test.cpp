@@ -114,6 +114,15 @@ TEST(Navigate, GoesToRowsInTurnAndAnew) {
   EXPECT_GE(state_of(again).reached, 4);
 }
 
+TEST(Navigate, ALoopOfOneRowIsReachedOnce) {
+  const Folder folder;
+  Simulation run = navigating(folder, "2,1\n", "loop='true' speed='0.6'");
+  while (run.time() < 20) run.step();
+  EXPECT_EQ(state_of(run).reached, 1);
+  EXPECT_EQ(state_of(run).status, 2);
+  EXPECT_THAT(said(run), ElementsAre(StartsWith("plans "), "is at 2.00 1.00"));
+}
+
 TEST(Navigate, DrivesWhereAMissionSendsIt) {
   const Folder folder;
   Simulation run = world_of(folder,
