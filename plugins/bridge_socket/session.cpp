@@ -63,7 +63,7 @@ std::string Session::tables_frame(const muster_host* host, const muster_tick& ti
 std::string Session::news(const muster_host* host) {
   std::string result;
   for (auto& [set, told] : told_) {
-    if (told == 0 || host->rows(host, set.c_str()) == told) continue;
+    if (!host->row_name(host, set.c_str(), told)) continue;  // none has joined, or rows have no names there
     FrameWriter frame(Kind::rows);
     frame.text(set);
     frame.integer(told);

@@ -122,6 +122,33 @@ TEST(BridgeSilence, AnotherClientTakesOver) {
   second.join();
 }
 
+TEST(BridgeNames, OfRowsInASetThatWasEmptyAtTheBeginningAreTold) {
+  const Folder folder;
+  const auto file = folder.write(
+      "world.xml",
+      R"(<world name="w" dt="0.1" until="100"><station name="base" at="0 0 1"/><physics.planar/><robots.drive/>)"
+      R"(<robots.odometry/><bridge.socket reads="robot/*/odometry" writes="outbox/base/message" socket=")" +
+          folder.at("s") + R"("/><at t="0.2"><robot name="late" at="0 0 0"/></at></world>)");
+  Simulation run(read_world(file, standard()), standard(), {{MUSTER_PLUGINS_DIR}, 1, {}});
+  std::size_t rows = 0;
+  std::vector<std::string> names;
+  std::thread other([&] {
+    Client client = muster_client::connect(folder.at("s"));
+    while (client.next()) {
+      rows = client.rows("robot/*/odometry").size();
+      try {
+        names = client.names("robot");
+      } catch (const std::out_of_range&) {  // none is known yet
+      }
+    }
+  });
+  for (int i = 0; i < 5; ++i) run.step();
+  run.close();
+  other.join();
+  EXPECT_EQ(rows, 1u);
+  EXPECT_THAT(names, testing::ElementsAre("late"));
+}
+
 // What the run says to a client that sends these bytes; its first frame is in order where `joins`.
 std::string verdict(const std::string& bytes, bool joins = true) {
   Bridged world(R"(on_silence="hold" timeout="0.05" wait="60")");
