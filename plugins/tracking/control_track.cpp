@@ -20,7 +20,7 @@ using tracking::Told;
 using tracking::Vector2;
 
 struct ControlTrack {
-  static constexpr auto id = "control.track/1";
+  static constexpr auto id = "control.track/2";
   static constexpr auto summary = "follows a target down a navigation function that may keep the link to a base";
   static constexpr auto manual =
       "The robot drives down the navigation function of Rimon and Koditschek (1992) towards its place beside the\n"

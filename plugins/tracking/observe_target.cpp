@@ -11,7 +11,7 @@ using namespace muster;
 using tracking::Told;
 
 struct ObserveTarget {
-  static constexpr auto id = "observe.target/1";
+  static constexpr auto id = "observe.target/2";
   static constexpr auto summary = "a base's estimate of a target from what robots tell, and its error";
   static constexpr auto manual =
       "A Kalman filter on each coordinate: place and velocity, driven by white acceleration of deviation\n"
@@ -46,6 +46,7 @@ struct ObserveTarget {
       Told told;
       if (bytes.size() != sizeof told) continue;  // somebody else's message
       std::memcpy(&told, bytes.data(), sizeof told);
+      if (std::memcmp(told.tag, Told().tag, sizeof told.tag) != 0) continue;
       correct(now, told);
       ++now.heard, now.silence = 0;
     }

@@ -12,6 +12,7 @@ struct Sighting {
 // The bytes of a message about it.
 struct Told {
   double x, y, deviation;
+  char tag[8] = {'s', 'i', 'g', 'h', 't', 'i', 'n', 'g'};  // sets it apart from others of its size
 };
 
 }  // namespace muster::tracking

@@ -192,6 +192,16 @@ TEST_F(Missions, ARunIsTheSameAgain) {
   for (const char* name : {"mission", "o"}) expect_one_run([&] { return world_in(folder, inside); }, name, 80);
 }
 
+TEST_F(Missions, WhatIsSaidIsNoSightingWhateverItsLength) {
+  for (const std::size_t size : {24, 32}) {
+    Simulation sim = run("<wait seconds='0.5'/>\n<say text='" + std::string(size, 'x') + "'/>",
+                         "<observe.target name='known' base='base' target='scout'/>");
+    run_to(sim, 2);
+    EXPECT_GT(row<Traffic>(sim, "radio/scout/traffic").delivered, 0);
+    EXPECT_EQ(sim.table("instance/known/estimate").at(0, 8), 0) << "messages that are heard, of size " << size;
+  }
+}
+
 TEST_F(Missions, WhatCannotBeIsRefusedWithItsPlace) {
   const auto refused = [&](const std::string& mission) {
     const std::string text = folder.inside(refusal([&] { run(mission); }));
