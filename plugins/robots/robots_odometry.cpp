@@ -14,7 +14,7 @@ using namespace muster;
 using description::WorldRobots;
 
 struct RobotsOdometry {
-  static constexpr auto id = "robots.odometry/2";
+  static constexpr auto id = "robots.odometry/3";
   static constexpr auto summary =
       "dead reckoning from the angles of wheels or legs, from the true pose at the start on";
   static constexpr auto manual =
@@ -66,6 +66,7 @@ struct RobotsOdometry {
         seen(s.write<Seen>("robot/*/odometry_seen")) {
     if (robots.any_mecanum()) {
       rear_wheels = s.read_if_any<Wheels>("robot/*/rear_wheels");
+      rear_drive = s.read_if_any<Drive>("robot/*/rear_drive");
       seen_rear = s.write<SeenRear>("robot/*/odometry_rear");
     }
     if (!robots.any_walks()) return;
@@ -94,7 +95,8 @@ struct RobotsOdometry {
         k[*seen_rear][i] = has_rear ? SeenRear{k[*rear_wheels][i].left, k[*rear_wheels][i].right} : SeenRear{0, 0};
       }
       if (robots.any_walks()) k[seen_legs][i] = i < k[legs].size() ? angles_of(k[legs][i]) : SeenLegs{};
-      const bool stands = i < asked.size() && k.alive("robot", i) && stalls(asked[i], now, k.dt());
+      const bool stands =
+          i < asked.size() && k.alive("robot", i) && (stalls(asked[i], now, k.dt()) || rear_stalls(k, i));
       k[stall][i].stalled = stands ? 1 : 0;
     }
   }
@@ -167,6 +169,11 @@ struct RobotsOdometry {
     return walked(walks, from, to.data());
   }
 
+  bool rear_stalls(const Step& k, std::size_t i) const {
+    if (!rear_drive || i >= k[*rear_drive].size() || i >= k[*rear_wheels].size()) return false;
+    return stalls(k[*rear_drive][i], k[*rear_wheels][i], k.dt());
+  }
+
   static bool stalls(const Drive& asked, const Wheels& now, double dt) {
     return stalls(asked.left, asked.left + dt * asked.left_rate, now.left_rate) ||
            stalls(asked.right, asked.right + dt * asked.right_rate, now.right_rate);
@@ -195,6 +202,7 @@ struct RobotsOdometry {
   Out<Stall> stall;
   Out<Seen> seen;
   std::optional<In<Wheels>> rear_wheels;  // if any robot has rollers
+  std::optional<In<Drive>> rear_drive;
   std::optional<Out<SeenRear>> seen_rear;
   In<Legs> legs{};            // if any robot walks
   Out<SeenLegs> seen_legs{};  // if any robot walks

@@ -48,6 +48,17 @@ TEST(Mecanum, RatesLeaveNoSlipAlongTheRollers) {
   }
 }
 
+TEST(Mecanum, RearWheelsThatAreHeldStall) {
+  const auto stalled = [](const std::string& physics) {
+    const Folder folder;
+    Simulation run = driven(folder, "youbot", physics, "<control.steady robot=\"r\" v=\"0.2\"/><robots.odometry/>");
+    run_to(run, 1);
+    return row<Stall>(run, "robot/r/stall").stalled;
+  };
+  EXPECT_EQ(stalled("test.rear"), 1);
+  EXPECT_EQ(stalled("physics.planar"), 0);
+}
+
 TEST(Mecanum, OfARobotWithoutRollersThatIsToGoSidewaysOneWarningIsGiven) {
   const Folder folder;
   const auto warnings = [&](const std::string& model, const std::string& twist) {
