@@ -30,7 +30,7 @@ struct ControlPath3d {
   static constexpr Param params[] = {
       reference("robot", "robot", "the robot it leads").required(),
       file("path", "way points x[m],y[m],z[m]").required(),
-      real("start", 0, 0, 1e9, "s", "when it leaves the first way point's wait"),
+      real("start", 0, 0, 1e9, "s", "when its wait at the first way point begins"),
       real("speed", 1, 1e-3, 100, "m/s", "on the way"),
       real("acceleration", 3, 1e-3, 100, "m/s2", "from and to rest"),
       real("wait", 0, 0, 1e9, "s", "at each way point"),
