@@ -1,5 +1,5 @@
 // Constants of IEEE 802.11-2016 for ERP-OFDM (802.11g): its clause 18 over clause 17, in a network of such stations
-// alone, so with the short slot.
+// alone, with either slot.
 #pragma once
 
 #include <algorithm>
