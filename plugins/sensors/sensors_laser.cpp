@@ -29,7 +29,7 @@ std::string seconds_text(double seconds) {
 }
 
 struct SensorsLaser {
-  static constexpr auto id = "sensors.laser/1";
+  static constexpr auto id = "sensors.laser/2";
   static constexpr auto summary = "what the lasers on robots see: walls, doors, the ground, other robots";
   static constexpr auto manual =
       "Each <sensor> with a <ray> of a robot's model scans at its rate, or once a tick where that is slower; a scan "
@@ -240,8 +240,8 @@ struct SensorsLaser {
 
   std::vector<double> rays_seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
                                 const description::Laser& laser, const std::vector<Solid>& walls) const {
-    // Includes hits that noise may bring within its range.
-    Fan fan(laser, laser.max_range + 6 * deviation(k, laser.max_range));
+    // Includes hits that noise or a bias may bring within its range.
+    Fan fan(laser, laser.max_range + 6 * deviation(k, laser.max_range) + most_shortened(k));
     const Isometry3d world = laser_pose.inverse();
     for (const Solid& solid : walls) fan.meet(solid, world);
     fan.meet_ground(laser_pose.translation().z(), -world.linear().col(2));
@@ -336,6 +336,14 @@ struct SensorsLaser {
     const RangeBias& from = *(after - 1);
     if (after == rows.end()) return from.bias;
     return from.bias + (after->bias - from.bias) * (range - from.range) / (after->range - from.range);
+  }
+
+  // By how much a bias may shorten a range [m].
+  double most_shortened(const Step& k) const {
+    double least = 0;
+    if (biases)
+      for (const RangeBias& row : k[*biases]) least = std::min(least, row.bias);
+    return -least;
   }
 
   std::vector<Solid> walls_of(const Step& k) const {

@@ -44,6 +44,19 @@ TEST(LaserErrors, AddTheBiasOfTheirTable) {
             std::string::npos);
 }
 
+// The laser reaches 4 m, and the wall is 4.05 m ahead of it.
+TEST(LaserErrors, ABiasBringsAWallIntoReach) {
+  Folder folder;
+  Simulation run = world_of(folder,
+                            still + rover(folder) +
+                                "<material name=\"brick\" loss=\"6\"/><wall name=\"w\" from=\"4.15 -50\" "
+                                "to=\"4.15 50\" material=\"brick\"/><sensors.laser biases=\"b.csv\"/>",
+                            {{"b.csv", "range[m],bias[m]\n3,-0.1\n"}});
+  const Seen seen = scans(run).at(0);
+  for (std::size_t i = 335; i < 347; ++i)
+    EXPECT_NEAR(seen.ranges[i], (4.1 - forward) / std::cos(seen.angle(i)) - 0.1, 1e-9) << i;
+}
+
 // A near wall ends beside the x axis, before a far one.
 TEST(LaserErrors, MixTwoSurfacesWithinABeam) {
   Folder folder;
