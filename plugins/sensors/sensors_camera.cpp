@@ -27,8 +27,30 @@ using description::WorldRobots;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+// A door's leaf as a wall of its own.
+scene::Wall leaf_of(const scene::Door& door, const scene::Wall& wall) {
+  const double x = wall.x1 - wall.x0, y = wall.y1 - wall.y0, length = std::hypot(x, y);
+  const double from = door.at / length, to = std::min(1.0, (door.at + door.width) / length);
+  scene::Wall leaf = wall;
+  leaf.x0 = wall.x0 + from * x, leaf.y0 = wall.y0 + from * y;
+  leaf.x1 = wall.x0 + to * x, leaf.y1 = wall.y0 + to * y;
+  leaf.height = std::min(door.height, wall.height);
+  leaf.material = door.material;
+  return leaf;
+}
+
+// Makes closed doors of another material than their wall's gaps with a wall in each, which have colours of their own.
+void part_doors(std::vector<scene::Wall>& walls, std::vector<scene::Door>& doors) {
+  for (scene::Door& door : doors) {
+    const scene::Wall wall = walls[static_cast<std::size_t>(door.wall)];
+    if (door.open || door.material == wall.material) continue;
+    if (door.at < std::hypot(wall.x1 - wall.x0, wall.y1 - wall.y0)) walls.push_back(leaf_of(door, wall));
+    door.open = true;
+  }
+}
+
 struct SensorsCamera {
-  static constexpr auto id = "sensors.camera/1";
+  static constexpr auto id = "sensors.camera/2";
   static constexpr auto summary = "a camera on a robot: depth and colour, with a sun, its shadows and fog";
   static constexpr auto manual =
       R"(At `rate` a picture of width x height pixels goes to image/*/message: a depth (metres along the camera's axis; float,
@@ -135,8 +157,10 @@ Sensors 2012); colours have one of `noise`, of 0 to 1. Pictures are large: 0.5 M
 
   std::vector<Facets> walls_of(const Step& k) const {
     std::vector<Facets> result;
-    const auto walls = scene_walls(k[wall]);
-    for (const scene::Slab& slab : scene::slabs(walls, scene_doors(k[door], k[state], k[wall]))) {
+    auto walls = scene_walls(k[wall]);
+    auto doors = scene_doors(k[door], k[state], k[wall]);
+    part_doors(walls, doors);
+    for (const scene::Slab& slab : scene::slabs(walls, doors)) {
       description::Shape shape;
       shape.pose = Eigen::Translation3d(slab.x, slab.y, slab.z) *
                    Eigen::AngleAxisd(std::atan2(slab.sin_yaw, slab.cos_yaw), Vector3d::UnitZ());

@@ -72,6 +72,18 @@ TEST_F(Camera, ADoorOpensInIt) {
   EXPECT_NEAR(after(12, "z='1'", opens).at(160, 119), 8.95, 1e-6);
 }
 
+TEST_F(Camera, AClosedDoorHasTheColourOfItsMaterial) {
+  const std::string blue =
+      "<material name='panel' loss='4' colour='0.1 0.2 0.8'/><wall name='near' from='3 -4' to='3 4' material='brick'/>"
+      "<door name='leaf' wall='near' at='3.5' width='1' height='1.5' material='panel' state='closed'/>";
+  const Picture seen = after(2, "z='1'", blue);
+  const auto blue_at = [&](int x, int y) { return static_cast<int>(seen.colour[3 * seen.pixel(x, y) + 2]); };
+  for (const int x : {20, 160, 300}) EXPECT_NEAR(seen.at(x, 119), 2.95, 1e-6);
+  EXPECT_GT(blue_at(160, 119), 3 * seen.red(160, 119));
+  EXPECT_GT(seen.red(20, 119), 3 * blue_at(20, 119));  // beside the door
+  EXPECT_GT(seen.red(160, 50), 3 * blue_at(160, 50));  // above it
+}
+
 TEST_F(Camera, OtherRobotsAreSeenWhileTheyAreThereAndNeverItsOwn) {
   const std::string others =
       "<robot name='other' at='2 0 0'/><at t='0.5'><leave robot='other'/></at>"
