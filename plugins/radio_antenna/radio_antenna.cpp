@@ -17,8 +17,14 @@ struct HighestGain {
   double gain;
 };
 
+// Of a radio's own antenna. A radio that joins as a copy begins with the cell of another, whose row `of` then is.
+struct OwnGain {
+  static constexpr const char* columns = "gain[dBi]? of:radio?";
+  double gain, of;
+};
+
 struct RadioAntenna {
-  static constexpr auto id = "radio.antenna/1";
+  static constexpr auto id = "radio.antenna/2";
   static constexpr auto summary = "an antenna that radiates more in some directions than in others";
   static constexpr auto manual =
       R"(Adds to the level of a link the gain in dBi that the antenna of `radio` has in the direction of the other
@@ -66,9 +72,9 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
         is_of_one(s.param("radio") >= 0) {
     // Claims detect a second antenna of a radio as its second writer, and a second common antenna likewise.
     if (is_of_one) {
-      highest = s.write<HighestGain>("radio/{radio}/antenna");
+      of_one = s.write<OwnGain>("radio/{radio}/antenna");
     } else {
-      others = s.read_if_any<HighestGain>("radio/*/antenna");
+      others = s.read_if_any<OwnGain>("radio/*/antenna");
       highest = s.write<HighestGain>("radio/*/common_antenna");
     }
     if (s.param("pattern") == table) {
@@ -98,12 +104,12 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
     const double gain = (k[pattern] == table ? measured.highest() : directivity) - k[loss];
     if (is_of_one) {
       own[static_cast<std::size_t>(k[radio])] = 1;
-      k[highest]->gain = gain;
+      *k[of_one] = {gain, k[radio]};
       return own;
     }
     const auto named = k[others];
     for (std::size_t i = 0; i < k[highest].size(); ++i) {
-      own[i] = named.empty() || is_null(named[i].gain);
+      own[i] = named.empty() || named[i].of != static_cast<double>(i);
       k[highest][i].gain = own[i] ? gain : null();
     }
     return own;
@@ -146,7 +152,8 @@ mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the b
   In<Ends> ends;
   Out<Level> level;
   bool is_of_one;
-  In<HighestGain> others{};
+  In<OwnGain> others{};
+  Out<OwnGain> of_one{};
   Out<HighestGain> highest{};
   std::optional<In<MeasuredGain>> rows;
   GainTable measured;

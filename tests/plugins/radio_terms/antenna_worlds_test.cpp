@@ -127,6 +127,20 @@ TEST(AntennaWorld, OfATableHasItsGains) {
   EXPECT_EQ(sim.table("radio/*/antenna").at(0, 0), 5);
 }
 
+TEST(AntennaWorld, ACopyOfARadioWithItsOwnHasTheCommonOne) {
+  const Folder folder;
+  Simulation sim = world_of(folder, station("a", "0 0 1") + station("b", "9 0 1") + silence +
+                                        "<radio.antenna name=\"of_a\" radio=\"a\" pattern=\"isotropic\" loss=\"3\"/>"
+                                        "<radio.antenna name=\"common\" pattern=\"isotropic\" loss=\"7\"/>"
+                                        "<test.joiner radio=\"late\" like=\"a\" at=\"2\"/>");
+  run(sim, 4);
+  const TableView common = sim.table("radio/*/common_antenna");
+  EXPECT_TRUE(std::isnan(common.at(0, 0)));
+  EXPECT_NEAR(common.at(1, 0), -7, 1e-9);
+  EXPECT_NEAR(common.at(2, 0), -7, 1e-9);
+  EXPECT_NEAR(by_pair(sim, "link/*/level@common").at({"late", "b"}), -14, 1e-9);
+}
+
 TEST(AntennaWorld, SaysWhatIsWrong) {
   const Folder folder;
   const auto file = folder.put("full.csv", "azimuth[rad],elevation[rad],gain[dBi]\n0,-1.571,3\n0,1.571,3\n");
