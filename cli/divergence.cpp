@@ -234,7 +234,8 @@ void Divergence::compare_rows(const Pair& pair, TableDivergence& found, std::siz
     const bool unlike = column.bytes || !column.reference.empty() || !std::isfinite(difference);
     note(found, row, m, unlike ? 0 : difference, unlike);
   }
-  if (found.measures[0].column[0] >= 0 || is_queue(*pair.table[0])) return;
+  const bool poses = !found.measures.empty() && found.measures[0].column[0] < 0 && !is_queue(*pair.table[0]);
+  if (!poses) return;
   const Pose &p = *reinterpret_cast<const Pose*>(a), &q = *reinterpret_cast<const Pose*>(b);
   note(found, row, 0, std::hypot(q.x - p.x, q.y - p.y, q.z - p.z), false);
   note(found, row, 1, turned(p, q), false);

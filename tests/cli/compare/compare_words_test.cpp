@@ -115,6 +115,16 @@ TEST(CompareWords, ARunThatFailsEndsAndTheOtherIsReported) {
   EXPECT_THAT(outcome.err, HasSubstr("the shelf is empty"));
 }
 
+// Two plugins may each keep a table of one name, with columns of their own; it ended in a segmentation fault.
+TEST(CompareWords, TablesOfOneNameWithoutACommonColumnHaveOnlyColumnsOfTheirOwn) {
+  const CompareFolder folder;
+  folder.write("world.xml", "<world name=\"w\" dt=\"0.1\" until=\"1\"><test.good name=\"toy\"/></world>");
+  const auto one = folder.json({"world.xml", "toy=test.other_column", "--plugins", MUSTER_TOYS})["comparisons"][0];
+  EXPECT_EQ(one["ticks"], 10);
+  EXPECT_EQ(one["only"]["A"], nlohmann::json::array({"instance/toy/cell value[m]"}));
+  EXPECT_EQ(one["only"]["B"], nlohmann::json::array({"instance/toy/cell width[m]"}));
+}
+
 TEST(CompareWords, AWorldThatEndsEarlierIsComparedToItsEnd) {
   const CompareFolder folder;
   folder.write("short.xml", "<world dt=\"0.1\" until=\"1\"><robot name=\"r\" at=\"0 0 0\"/><physics.planar/></world>");

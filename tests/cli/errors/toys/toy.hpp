@@ -23,6 +23,9 @@
 #ifndef TOY_DESTROY
 #define TOY_DESTROY
 #endif
+#ifndef TOY_COLUMN
+#define TOY_COLUMN "value[m]"
+#endif
 
 #ifndef TOY_STEP_CONST
 #define TOY_STEP_CONST const
@@ -48,7 +51,7 @@ struct Round {
 };
 
 struct Cell {
-  static constexpr const char* columns = "value[m]";
+  static constexpr const char* columns = TOY_COLUMN;
   double value;
 };
 
