@@ -31,12 +31,22 @@ int log_info(const LogVerbWords& words) {
   return static_cast<int>(contents.scan.damages.empty() ? Exit::done : Exit::check_failed);
 }
 
-// "run.mcap" of "run.mcap.part", "run_recovered.mcap" of "run.mcap".
-fs::path out_of(const LogVerbWords& words, const char* suffix) {
-  if (!words.out.empty()) return words.out;
+// The log's name once it is whole: "run.mcap" of "run.mcap.part".
+fs::path whole_name(const LogVerbWords& words) {
   const fs::path file = words.file;
-  if (file.extension() == ".part") return fs::path(file).replace_extension();
-  return fs::path(file).replace_extension().string() + suffix;
+  return file.extension() == ".part" ? fs::path(file).replace_extension() : file;
+}
+
+// "run.mcap" of "run.mcap.part", "run_recovered.mcap" of "run.mcap".
+fs::path recovered_name(const LogVerbWords& words) {
+  if (!words.out.empty()) return words.out;
+  const fs::path whole = whole_name(words);
+  if (whole == fs::path(words.file)) return fs::path(whole).replace_extension().string() + "_recovered.mcap";
+  if (fs::exists(whole))
+    throw Error(Exit::invalid_input, whole.string() +
+                                         " is there already, which may be an earlier run's log; expected " +
+                                         "another file to write: -o FILE");
+  return whole;
 }
 
 void print_rewritten(const LogVerbWords& words, const mcap::Rewritten& done, const fs::path& out) {
@@ -65,7 +75,7 @@ void check_written(const LogVerbWords& words, const fs::path& out) {
 }
 
 int log_recover(const LogVerbWords& words) {
-  const fs::path out = out_of(words, "_recovered.mcap");
+  const fs::path out = recovered_name(words);
   check_written(words, out);
   const auto done = mcap::rewrite(words.file, out, mcap::Damage::skipped);
   print_rewritten(words, done, out);
@@ -100,7 +110,7 @@ int log_cut(const LogVerbWords& words) {
 }
 
 int log_csv(const LogVerbWords& words) {
-  const fs::path out = out_of(words, ".csv");
+  const fs::path out = words.out.empty() ? whole_name(words).replace_extension(".csv") : fs::path(words.out);
   check_written(words, out);
   const auto done = run_log::write_wide(words.file, out, words.columns);
   if (words.json) {

@@ -60,6 +60,22 @@ TEST(LogVerb, InfoOfADamagedFileEndsWithOne) {
   EXPECT_THAT(printed(folder, {"log", "info", "torn_recovered.mcap", "--json"}), HasSubstr("\"whole\": true"));
 }
 
+// A table was written into run.mcap, and a log of a run that was killed over that of an earlier one.
+TEST(LogVerb, WhatIsMadeOfAPartTakesNoOthersPlace) {
+  const ProgramFolder folder;
+  printed(folder, {"run", world, "--until", "1", "--mcap", "run.mcap"});
+  const std::string whole = folder.read("run.mcap");
+  folder.write("run.mcap.part", whole);
+  EXPECT_THAT(printed(folder, {"log", "csv", "run.mcap.part"}), HasSubstr("wrote run.csv: "));
+  expect_error(folder.muster({"log", "recover", "run.mcap.part"}), 2,
+               "run.mcap is there already, which may be an earlier run's log; expected another file to write: -o FILE");
+  EXPECT_EQ(folder.read("run.mcap"), whole);
+  EXPECT_THAT(printed(folder, {"log", "recover", "run.mcap.part", "-o", "other.mcap"}),
+              HasSubstr("wrote other.mcap: "));
+  std::filesystem::remove(folder / "run.mcap");
+  EXPECT_THAT(printed(folder, {"log", "recover", "run.mcap.part"}), HasSubstr("wrote run.mcap: "));
+}
+
 TEST(LogVerb, RefusesWhatItCannotDo) {
   const ProgramFolder folder;
   const auto refused = [&](const std::vector<std::string>& words, const std::string& message, int exit = 2) {
