@@ -10,13 +10,23 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-// How far robots got from where they began, on average.
+// A row that has left keeps its last cells, which are no value of the run any more.
+bool is_here(const TableView& table, std::size_t row) {
+  const Set& set = table.table->set();
+  return !set.is_named() || set.alive[table.row >= 0 ? static_cast<std::size_t>(table.row) : row];
+}
+
+// How far robots got from where they began, on average over those that have not left.
 double moved(const Simulation& run, const Positions& at_start) {
+  const TableView poses = run.table("robot/*/pose");
   const Positions now = robot_positions(run);
   double sum = 0;
-  const std::size_t robots = std::min(now.size(), at_start.size());
-  for (std::size_t i = 0; i < robots; ++i)
+  std::size_t robots = 0;
+  for (std::size_t i = 0; i < std::min(now.size(), at_start.size()); ++i) {
+    if (!is_here(poses, i)) continue;
     sum += std::hypot(now[i][0] - at_start[i][0], now[i][1] - at_start[i][1], now[i][2] - at_start[i][2]);
+    ++robots;
+  }
   return robots > 0 ? sum / static_cast<double>(robots) : nothing;
 }
 
@@ -31,7 +41,7 @@ std::size_t column_of(const Simulation& run, const TableView& table, const std::
                                        suggest(name, valid) + column_elsewhere(run.board(), *table.table, name));
 }
 
-// Of the copies of messages that were asked for, how many arrived.
+// Of the copies of messages that were asked for, how many arrived; also of radios that have left since.
 double delivered(const Simulation& run, const Positions&) {
   const TableView traffic = run.table("radio/*/traffic");
   const std::size_t asked = column_of(run, traffic, "radio/*/traffic", "asked", "delivered");
@@ -66,13 +76,13 @@ Metric metric_of(const std::string& word, const Simulation& given, const std::st
   const TableView table = given.table(path);
   const std::string unit = table.table->columns()[column_of(given, table, path, name, option)].unit;
   return {word, unit, [path, name, option](const Simulation& run, const Positions&) {
-            const auto now = run.find_table(path);  // a row that has left has no value
+            const auto now = run.find_table(path);
             if (!now) return nothing;
             const std::size_t column = column_of(run, *now, path, name, option);
             double sum = 0;
             std::size_t rows = 0;
             for (std::size_t row = 0; row < now->rows(); ++row) {
-              if (!std::isnan(now->at(row, column))) sum += now->at(row, column), ++rows;
+              if (is_here(*now, row) && !std::isnan(now->at(row, column))) sum += now->at(row, column), ++rows;
             }
             return rows > 0 ? sum / static_cast<double>(rows) : nothing;
           }};

@@ -23,12 +23,12 @@ struct Metric {
   std::string title() const { return name + (unit.empty() ? "" : " [" + unit + ']'); }
 };
 
-// "moved", how far robots got on average, and "delivered", which share of messages arrived, as far as the world has
-// robots and messages.
+// "moved", how far robots that have not left got on average, and "delivered", which share of messages arrived, as far
+// as the world has robots and messages.
 std::vector<Metric> usual_metrics(const Simulation& given);
 
-// "robot/leader/pose/x": a column of a table, on average over its rows that have a value; `option` gave the word, for
-// messages. Throws Error.
+// "robot/leader/pose/x": a column of a table, on average over its rows that have a value, which those that have left
+// have not; `option` gave the word, for messages. Throws Error.
 Metric metric_of(const std::string& word, const Simulation& given, const std::string& option);
 
 }  // namespace muster::cli

@@ -1,4 +1,5 @@
 // What a sweep runs is what `muster run` runs, once, however it is shared.
+#include <cmath>
 #include <thread>
 
 #include "swept.hpp"
@@ -67,6 +68,29 @@ TEST(Sweep, SweepsWorlds) {
   EXPECT_NEAR(table.reals(table.require("difference", ""), {.empty = true})[1], 10,
               0.01);  // both drive to the same far point
   EXPECT_EQ(table.text(1, table.require("world", "")), "other.xml");
+}
+
+// The last cells of a row that has left were counted on.
+TEST(Sweep, MetricsLeaveOutRobotsThatHaveLeft) {
+  const SweepFolder folder;
+  folder.write(
+      "left.xml",
+      "<world name=\"left\" dt=\"0.1\" until=\"2\"><robot name=\"r\" at=\"0 0 0\"/><robot name=\"s\" at=\"10 0 0\"/>"
+      "<physics.planar/><control.waypoint robot=\"s\" path=\"way.csv\" speed=\"0.3\"/>"
+      "<at t=\"1\"><leave robot=\"s\"/></at></world>");
+  folder.write("plan.xml",
+               "<sweep world=\"left.xml\" seeds=\"1 2\"><metric of=\"moved\"/><metric of=\"robot/*/pose/x\"/>"
+               "<metric of=\"robot/s/pose/x\"/><metric of=\"robot/s/pose/x\" take=\"most\"/></sweep>");
+  const auto outcome = folder.sweep({"plan.xml", "--out", "out"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto runs = TextTable::read(folder.path() / "out" / "runs.csv");
+  const auto first = [&](const std::string& column) {
+    return runs.reals(runs.require(column, "m"), {.empty = true})[0];
+  };
+  EXPECT_NEAR(first("moved"), 0, 1e-9) << "r stays where it is";
+  EXPECT_NEAR(first("robot/*/pose/x"), 0, 1e-9);
+  EXPECT_TRUE(std::isnan(first("robot/s/pose/x")));
+  EXPECT_GT(first("most of robot/s/pose/x"), 10.1) << "while it was there";
 }
 
 TEST(Sweep, TheSameAgainRunsNothing) {
