@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ladder.hpp"
@@ -35,6 +36,23 @@ std::unique_ptr<Simulation> made(const World& world, const LadderWords& words) {
   auto run = std::make_unique<Simulation>(world, standard(), Options{plugin_path(words.plugins), words.workers, {}});
   set_parameters(*run, words.set);
   return run;
+}
+
+// What is set of the world's instances, as attributes of theirs: a rung sets some of them after that, which a run that
+// is set later would undo. `words` keeps what is set of others, such as materials. All was set once, and so is valid.
+World with_set(World world, LadderWords& words) {
+  std::erase_if(words.set, [&](const std::string& one) {
+    const auto equals = one.find('='), slash = one.rfind('/', equals);
+    const auto owner =
+        std::find_if(world.instances.begin(), world.instances.end(),
+                     [&](const InstanceDeclaration& instance) { return instance.name == one.substr(0, slash); });
+    if (owner == world.instances.end()) return false;
+    const std::string name = one.substr(slash + 1, equals - slash - 1);
+    std::erase_if(owner->attributes, [&](const XmlAttribute& given) { return given.name == name; });
+    owner->attributes.push_back({name, one.substr(equals + 1), {"--set"}, {"--set"}});
+    return true;
+  });
+  return world;
 }
 
 Outcome climb(Rung rung, const std::vector<Metric>& metrics, const LadderWords& words, Progress& progress, double done,
@@ -115,13 +133,14 @@ void write(const std::filesystem::path& folder, const std::string& world, const 
 
 }  // namespace
 
-Exit run_ladder(const LadderWords& words) {
-  const World world = world_of(words.world, words);
+Exit run_ladder(LadderWords words) {
+  World world = world_of(words.world, words);
   std::vector<Rung> rungs;
   std::vector<Metric> metrics;
   std::size_t channels = 0;
   {
     const auto given = made(world, words);
+    world = with_set(std::move(world), words);
     rungs = ladder(world, *given);
     channels = rungs.size();
     for (Rung& body : ladder_of_bodies(world, *given, words.measured)) rungs.push_back(std::move(body));

@@ -12,6 +12,6 @@ struct LadderWords : RunOptions {
 };
 
 // Prints a table, or JSON; with --out also ladder.csv and ladder.svg. Throws Error.
-Exit run_ladder(const LadderWords& words);
+Exit run_ladder(LadderWords words);
 
 }  // namespace muster::cli

@@ -41,6 +41,20 @@ TEST(Ladder, TakesAwayWhatMakesAChannelHard) {
   EXPECT_THAT(walls, ElementsAre(0, 0, 0, -7.5, -7.5, -7.5, -7.5));
 }
 
+// It was set after the rung's own, and undid them: the lower rungs had the shadowing.
+TEST(Ladder, WhatIsSetHoldsOnTheRungsThatHaveIt) {
+  const CompareFolder folder;
+  folder.write("world.xml", calling_world("<radio.fading shadowing=\"6\"/>"));
+  const auto told =
+      folder.json({"--ladder", "world.xml", "--metric", "link/*/level/level", "--set", "radio.fading/shadowing=3",
+                   "--set", "radio.multiwall/n=3", "--set", "material/brick/loss=5"});
+  const auto level = values(told, 0);
+  ASSERT_EQ(level.size(), 6u);
+  EXPECT_THAT(std::vector(level.begin(), level.begin() + 4),
+              ElementsAre(-50, -250, DoubleNear(-80, 1e-9), DoubleNear(-85, 1e-9)));
+  EXPECT_NE(level[4], level[3]);
+}
+
 TEST(Ladder, ShowsMessagesAndMovesWhereNothingElseIsAskedFor) {
   const CompareFolder folder;
   folder.write("way.csv", "x[m],y[m]\n100,0\n");
