@@ -75,4 +75,35 @@ void restore(Simulation& run, const std::string& file, bool has_seed) {
                file, changed);
 }
 
+void check_end(const Simulation& run, const std::string& file, bool is_expected) {
+  if (run.tick() > run.world().ticks)
+    throw Error(Exit::invalid_input, "--restore: " + file + " stands at " + print_real(run.time()) +
+                                         " s, after the end of the run at " + print_real(run.world().until()) +
+                                         " s; expected --until above " + print_real(run.time()) +
+                                         ": it is a time of the world, not a duration");
+  if (run.tick() == run.world().ticks && !is_expected)
+    fmt::print(
+        stderr,
+        "muster: note: --restore: {} stands at {} s, the end of the run, so that no tick is run; expected a later "
+        "end (--until)\n",
+        file, print_real(run.time()));
+}
+
+void check_swap(const Simulation& run, const std::string& file, const Occasion& swap) {
+  if (swap.tick >= run.tick()) return;
+  const PluginChange& change = swap.plugins[0];
+  const auto stands = std::find_if(run.instances().begin(), run.instances().end(),
+                                   [&](const auto& each) { return each->name() == change.instance; });
+  const auto declared = std::find_if(run.world().instances.begin(), run.world().instances.end(),
+                                     [&](const auto& each) { return each.name == change.instance; });
+  const bool was_swapped = stands != run.instances().end() && declared != run.world().instances.end() &&
+                           (*stands)->declared().plugin == change.plugin.plugin &&
+                           declared->plugin != change.plugin.plugin;
+  if (!was_swapped)
+    throw Error(Exit::invalid_input, "--at: " + print_real(static_cast<double>(swap.tick) * run.world().dt) +
+                                         " s is before " + print_real(run.time()) + " s, where --restore: " + file +
+                                         " stands, so that nothing would be exchanged; expected a time from " +
+                                         print_real(run.time()) + " s on");
+}
+
 }  // namespace muster::cli

@@ -11,4 +11,10 @@ namespace muster::cli {
 // from when on that counts. Throws Error.
 void restore(Simulation& run, const std::string& file, bool has_seed);
 
+// Throws Error where the restored run stands after its end, and notes where it is at it and ticks are wanted.
+void check_end(const Simulation& run, const std::string& file, bool is_expected);
+
+// Throws Error where the restored run is past a swap that the command plans, and has not had it.
+void check_swap(const Simulation& run, const std::string& file, const Occasion& swap);
+
 }  // namespace muster::cli

@@ -234,17 +234,10 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   for (const std::string& one : idle_notes(run)) fmt::print(stderr, "muster: note: {}\n", one);
   if (!words.restore.empty()) restore(run, words.restore, words.seed.has_value());
   set_parameters(run, words.set);
-  if (run.tick() > run.world().ticks)
-    throw Error(Exit::invalid_input, "--restore: " + words.restore + " stands at " + print_real(run.time()) +
-                                         " s, after the end of the run at " + print_real(run.world().until()) +
-                                         " s; expected --until above " + print_real(run.time()) +
-                                         ": it is a time of the world, not a duration");
-  if (!words.restore.empty() && run.tick() == run.world().ticks && !words.expected)
-    fmt::print(
-        stderr,
-        "muster: note: --restore: {} stands at {} s, the end of the run, so that no tick is run; expected a later "
-        "end (--until)\n",
-        words.restore, print_real(run.time()));
+  if (!words.restore.empty()) {
+    check_end(run, words.restore, words.expected);
+    if (!words.swap.instance.empty()) check_swap(run, words.restore, world.occasions.back());
+  }
   if (!words.log.wide.empty() && records.empty())
     throw Error(Exit::invalid_input,
                 "--wide: the world records no table; expected <record table=\"robot/*/pose\"/>, or --record");

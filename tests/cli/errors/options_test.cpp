@@ -1,6 +1,8 @@
 // Options that would do nothing, or something else than is meant, are refused with what is expected.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "program.hpp"
 
 using namespace muster::test;
@@ -127,6 +129,25 @@ TEST_F(Words, ARestoredRunThatIsOverIsNoted) {
   EXPECT_EQ(over.err,
             "muster: note: --restore: end.snap stands at 1 s, the end of the run, so that no tick is run; expected a "
             "later end (--until)\n");
+}
+
+// The swap never took place, without a word.
+TEST_F(Words, ASwapBeforeTheRestoredTimeIsRefused) {
+  ASSERT_EQ(run({"--until", "0.5", "--save", "half.snap"}).exit, 0);
+  const auto swap = [&](const std::string& at, const std::string& plugin, const std::string& option,
+                        const std::string& state) {
+    return folder.muster({"swap", "world.xml", "--plugins", MUSTER_TOYS, "--at", at, "--instance", "good", "--plugin",
+                          plugin, option, state});
+  };
+  expect_error(swap("0.2", "test.keeps_caches", "--restore", "half.snap"), 2,
+               "--at: 0.2 s is before 0.5 s, where --restore: half.snap stands, so that nothing would be exchanged; "
+               "expected a time from 0.5 s on");
+  EXPECT_EQ(swap("0.5", "test.keeps_caches", "--restore", "half.snap").exit, 0);
+  ASSERT_EQ(swap("0.2", "test.keeps_caches", "--save", "swapped.snap").exit, 0);
+  const Outcome later =
+      folder.muster({"swap", "world.xml", "--plugins", MUSTER_TOYS, "--at", "0.2", "--instance", "good", "--plugin",
+                     "test.keeps_caches", "--restore", "swapped.snap", "--until", "2"});
+  EXPECT_EQ(later.exit, 0) << "it was exchanged before: " << later.err;
 }
 
 TEST_F(Words, AFileIsNoPlugin) {
