@@ -249,14 +249,14 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
   if (!words.out.empty() || unnamed) {
     record.emplace(run, records, unnamed ? unnamed->path().string() : words.out, plugin_path(words.plugins));
     pictures.emplace(run);
-    record->write(run);
+    if (!words.expected) record->write(run);
     pictures->look(run);
   } else if (!records.empty() && !words.has_log && !words.json) {
     fmt::print(stderr, "muster: note: the world records tables; --out DIR says where to\n");
   }
   if (words.log.any()) {
     log.emplace(run, records, words.log, words.out);
-    log->write(run);
+    if (!words.expected) log->write(run);
   }
   PluginWatcher watcher;
   Digests digests;

@@ -150,6 +150,14 @@ TEST_F(Words, ASwapBeforeTheRestoredTimeIsRefused) {
   EXPECT_EQ(later.exit, 0) << "it was exchanged before: " << later.err;
 }
 
+// The start was written, and what is expected once more for the same moment.
+TEST_F(Words, WhatIsExpectedIsWrittenOnce) {
+  folder.write("world.xml", world_of("<station name=\"a\" at=\"0 0 1\"/><test.good/>"));
+  ASSERT_EQ(run({"--expected", "--out", "out", "--record", "endpoint/*/pose"}).exit, 0);
+  const std::string table = folder.read("out/endpoint_pose.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2) << table;
+}
+
 TEST_F(Words, AFileIsNoPlugin) {
   expect_error(folder.muster({"describe", "world.xml"}), 2,
                "muster describe: world.xml is a file; expected a plugin or an element (muster check reads a world)");
