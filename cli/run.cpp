@@ -219,8 +219,8 @@ World asked_world(RunWords& words) {
 
 constexpr double longest_proof = 10;  // that a saved state holds all [s] of the clock
 
-// The run from its start to its end. False: a client wants it anew.
-bool run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
+// The run from its start to its end, and how it ended; none where a client wants it anew.
+std::optional<Exit> run_once(const RunWords& words, const World& world, std::optional<double> speed, LiveView* view) {
   const auto& records = world.records;
   const SavedRun saved(words.save, words.save_every, world.dt);
   Options options{plugin_path(words.plugins), words.workers, {}};
@@ -321,19 +321,21 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
     }
     throw;
   }
-  if (view && view->wants_anew()) return false;
+  if (view && view->wants_anew()) return {};
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
   auto files = finish();
   if (const auto late = pacing ? pacing->warning(run.world().dt) : ""; !late.empty())
     fmt::print(stderr, "muster: warning: {}\n", late);
   if (view) view->finish();
-  if (view && view->wants_anew()) return false;
+  if (view && view->wants_anew()) return {};
   if (pictures && !unnamed) {
     for (auto& file : pictures->write(words.out)) files.push_back(std::move(file));
   }
   if (record && !unnamed) add_page(*record, words, files);
+  const Exit ended = interrupted() ? Exit::interrupted : Exit::done;  // the proof below is no part of the run
   print_outcome(run, words, digests, files, (run.time() - began_at) / took.count());
-  if (!words.save.empty() && !view && !words.watch && !words.expected && !interrupted()) {
+  if (!words.save.empty() && !view && !words.watch && !words.expected && ended == Exit::done) {
+    std::fflush(stdout);
     Options proof{plugin_path(words.plugins), words.workers, {}};
     proof.isolated = isolated;
     const std::string lost =
@@ -341,7 +343,7 @@ bool run_once(const RunWords& words, const World& world, std::optional<double> s
     if (!lost.empty()) fmt::print(stderr, "muster: warning: --save: {} {}\n", words.save, lost);
   }
   run.close();
-  return true;
+  return ended;
 }
 
 int run_world(RunWords& words) {
@@ -350,8 +352,9 @@ int run_world(RunWords& words) {
   watch_interrupt();
   std::optional<LiveView> view;
   if (words.view) view.emplace(words.view_at, world.records, *speed);
-  while (!run_once(words, world, speed, view ? &*view : nullptr)) continue;
-  return static_cast<int>(interrupted() ? Exit::interrupted : Exit::done);
+  std::optional<Exit> ended;
+  while (!ended) ended = run_once(words, world, speed, view ? &*view : nullptr);
+  return static_cast<int>(*ended);
 }
 
 }  // namespace

@@ -39,6 +39,18 @@ TEST_P(Interrupt, EndsTheRunWithWholeRecords) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/instance_good_cell.csv.part"));
 }
 
+// What sees that a state holds all comes after the run, which is done and saved by then.
+TEST(InterruptedProof, OfASavedStateLeavesTheRunDone) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<test.good name=\"good\"/>"));
+  Surroundings around;
+  around.meanwhile = [](int process) { ::kill(process, SIGINT); };
+  const auto outcome =
+      folder.muster({"run", "world.xml", "--plugins", toys, "--until", "20000", "--save", "end.snap"}, around);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("wrote end.snap"));
+}
+
 TEST(EndlessRun, IsToldWhenItWillEnd) {
   const ProgramFolder folder;
   std::string many;
