@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <muster/tables.hpp>
+#include <optional>
 #include <tuple>
 
 #include "cli/pose_angles.hpp"
@@ -258,10 +259,11 @@ std::string doubt_of_height(const Simulation& run, const std::vector<Sender>& se
          " m; is this centimetres? " + print_real(height) + " cm are " + print_real(height / 100) + " m";
 }
 
-pic::Range range_of(const std::vector<double>& map) {
+// None where nothing is received in any cell.
+std::optional<pic::Range> range_of(const std::vector<double>& map) {
   pic::Extent extent;
   for (const double v : map) extent.add(v);
-  return extent.empty() ? pic::Range{} : extent.range();
+  return extent.empty() ? std::nullopt : std::optional(extent.range());
 }
 
 }  // namespace
@@ -298,14 +300,15 @@ int run_map(const Arguments& arguments) {
   try {
     for (const Sender& sender : senders) {
       maps.push_back(map_of(sender, receiver, grid, words));
-      const pic::Range range = range_of(maps.back());
-      json["radios"][sender.name] = {{"lowest_dbm", range.low}, {"highest_dbm", range.high}};
+      const std::optional<pic::Range> range = range_of(maps.back());
+      json["radios"][sender.name] = {{"lowest_dbm", range ? Json(range->low) : Json()},
+                                     {"highest_dbm", range ? Json(range->high) : Json()}};
       const fs::path file = fs::path(words.out) / ("map_" + sender.name + ".svg");
       pic::save(figure_of(run.world().name, sender, maps.back(), grid, plan, words), file);
       wrote(file);
       const std::size_t pixels = std::max<std::size_t>(1, 400 / grid.width);
       const fs::path raster = fs::path(file).replace_extension("png");
-      pic::save_png(maps.back(), grid.width, range, pic::Map::viridis, pixels, raster);
+      pic::save_png(maps.back(), grid.width, range.value_or(pic::Range{}), pic::Map::viridis, pixels, raster);
       wrote(raster);
       progress.at(0.5 + 0.5 * static_cast<double>(maps.size()) / static_cast<double>(senders.size()));
     }
@@ -321,8 +324,12 @@ int run_map(const Arguments& arguments) {
   fmt::print("{}: {} x {} cells of {:.3g} m, x {} to {}, y {} to {} m\n", run.world().name, grid.width, grid.height,
              grid.cell, print_real(shown(grid.x0)), print_real(shown(grid.x0 + grid.cell * double(grid.width))),
              print_real(shown(grid.y0)), print_real(shown(grid.y0 + grid.cell * double(grid.height))));
-  for (const auto& [name, r] : json["radios"].members())
-    fmt::print("  {:<16} {:.1f} to {:.1f} dBm\n", name, r["lowest_dbm"].real(), r["highest_dbm"].real());
+  for (const auto& [name, r] : json["radios"].members()) {
+    if (r["lowest_dbm"].is_null())
+      fmt::print("  {:<16} nothing received\n", name);
+    else
+      fmt::print("  {:<16} {:.1f} to {:.1f} dBm\n", name, r["lowest_dbm"].real(), r["highest_dbm"].real());
+  }
   for (const Json& file : json["files"].elements()) fmt::print("  wrote {}\n", file.text());
   return 0;
 }

@@ -143,6 +143,19 @@ TEST(RssiMap, WhatIsNotReceivedIsEmpty) {
     EXPECT_EQ(std::isnan(rssi[i]), level(x[i], (x[i] > 2 ? 6 : 0) + (x[i] > 4 ? 3 : 0)) < -70) << x[i];
 }
 
+// It was said to be received with 0 to 1 dBm.
+TEST(RssiMap, OfARadioThatIsNowhereReceivedHasNoRange) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of(walls + radios));
+  std::vector<std::string> words = {"map",  "world.xml", "--from",  "a",  "--area",  "5000",  "-1",
+                                    "5100", "1",         "--cells", "10", "--drawn", "--out", "map"};
+  EXPECT_THAT(folder.muster(words).out, HasSubstr("  a                nothing received\n"));
+  words.push_back("--json");
+  const Outcome outcome = folder.muster(words);
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["radios"]["a"], json({{"lowest_dbm", nullptr}, {"highest_dbm", nullptr}}));
+}
+
 // A station that joins later sends nothing before.
 TEST(RssiMap, IsOfTheStationsThatAreThere) {
   const ProgramFolder folder;
