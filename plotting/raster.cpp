@@ -11,12 +11,13 @@ namespace muster::plotting {
 void save_png(const std::vector<double>& value, std::size_t width, Range range, Map map, std::size_t pixels,
               const std::filesystem::path& file) {
   const std::size_t height = value.size() / width;
+  const auto share = [&](double v) { return range.span() > 0 ? (v - range.low) / range.span() : 0.5; };
   std::vector<std::uint8_t> rgba;
   rgba.reserve(4 * value.size() * pixels * pixels);
   for (std::size_t y = height * pixels; y-- > 0;) {
     for (std::size_t x = 0; x < width * pixels; ++x) {
       const double v = value[y / pixels * width + x / pixels];
-      const Colour c = drawable(v) ? map_colour(map, (v - range.low) / range.span()) : white;
+      const Colour c = drawable(v) ? map_colour(map, share(v)) : white;
       rgba.insert(rgba.end(), {c.r, c.g, c.b, static_cast<std::uint8_t>(drawable(v) ? 255 : 0)});
     }
   }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "plotting/figure.hpp"
+#include "plotting/raster.hpp"
 
 namespace muster::plotting {
 namespace {
@@ -38,6 +39,13 @@ TEST_F(Save, WritesThePictureAndNothingElse) {
   save(figure, folder / "a.svg");
   EXPECT_EQ(content(folder / "a.svg"), svg(figure));
   EXPECT_THAT(files(), testing::ElementsAre("a.svg"));
+}
+
+// A range without extent was divided by.
+TEST_F(Save, ARasterOfOneValueHasTheMiddleOfTheColours) {
+  save_png({-50, -50}, 2, {-50, -50}, Map::viridis, 1, folder / "one.png");
+  save_png({0.5, 0.5}, 2, {0, 1}, Map::viridis, 1, folder / "middle.png");
+  EXPECT_EQ(content(folder / "one.png"), content(folder / "middle.png"));
 }
 
 // Renamed, not overwritten: a reader of the old picture keeps all of it.
