@@ -262,8 +262,10 @@ void Divergence::note_only(const Pair& pair, TableDivergence& found, const RowPa
   for (std::size_t i = 0; i < 2; ++i) {
     for (const auto& [row, number] : rows.only[i]) {
       if (set.is_named()) only_[i].insert(set.name + '/' + row);
-      for (std::size_t m = 0; set.kind == SetKind::listed && m < found.measures.size(); ++m)
-        note(found, row, m, 0, true);
+      for (std::size_t m = 0; m < found.measures.size(); ++m) {
+        const bool counts = set.kind == SetKind::listed || (set.is_named() && !std::isnan(found.tolerance[m]));
+        if (counts) note(found, row, m, 0, true);
+      }
     }
   }
 }

@@ -35,6 +35,18 @@ TEST(CompareWords, ToleranceDecidesTheExitCode) {
   EXPECT_EQ(misspelt.out, "");
 }
 
+// It was only told that one run alone has the robot, with exit code 0.
+TEST(CompareWords, ARobotOfOneRunAloneIsWithinNoTolerance) {
+  const CompareFolder folder;
+  const std::string head = "<world dt=\"0.1\" until=\"1\"><robot name=\"r\" at=\"0 0 0\"/>";
+  folder.write("one.xml", head + "<physics.planar/></world>");
+  folder.write("more.xml", head + "<robot name=\"t\" at=\"0 9 0\"/><physics.planar/></world>");
+  const auto outcome = folder.muster({"compare", "one.xml", "more.xml", "--within", "pose/distance=0.05"});
+  EXPECT_EQ(outcome.exit, 1) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("  BEYOND 0.05 m from 0 s on\n"));
+  EXPECT_EQ(folder.muster({"compare", "one.xml", "more.xml"}).exit, 0);
+}
+
 TEST(CompareWords, AreRefusedWithTheNearestName) {
   const CompareFolder folder;
   folder.write("world.xml", drive_world());
