@@ -44,6 +44,7 @@ Arguments parsed(int argc, char** argv, const Arguments& known) {
       if (option[0] != '-') throw std::invalid_argument(one_word_too_many(option, known, result));
       throw std::invalid_argument("there is no option " + option + "; " + expected(option, names));
     }
+    if (result.contains(option)) throw std::invalid_argument(option + " is given more than once; expected it once");
     auto& values = result[option];
     for (std::size_t k = 0; k < spec->second.size(); ++k) {
       if (++i >= argc || (k > 0 && known.contains(argv[i]) && *argv[i]))

@@ -119,6 +119,8 @@ TEST_F(Program, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run("grade exam").text, "muster_exam grade: \"exam\" is one word too many; did you mean --answers exam?\n");
   EXPECT_EQ(run("make --seed 7 --cases 1 --rows 2000 --out ex").text,
             "muster_exam make: --rows needs the most behind the least: --rows 2000 2000\n");
+  EXPECT_EQ(run("make --seed 1 --cases 1 --seed 2 --out ex").text,
+            "muster_exam make: --seed is given more than once; expected it once\n");
   EXPECT_EQ(run("grade --answers /nowhere --reports /nowhere").code, 2);
 }
 
