@@ -243,10 +243,12 @@ int run_sweep(const Arguments& arguments) {
   line.option("--of", words.of, "how many shares there are");
   line.option("--slurm", words.slurm, "run nothing: print a script for sbatch, an array of so many shares")
       .within(1, most_shares)
-      .excludes("--index");
+      .excludes("--index")
+      .excludes("--of");
   line.option("--parallel", words.parallel, "run nothing: print so many commands, a share each, for GNU parallel")
       .within(1, most_shares)
       .excludes("--index")
+      .excludes("--of")
       .excludes("--slurm");
   line.flag("--json", words.json, "print the outcome as JSON");
   line.void_beside("--slurm", {"--json"}, "prints a script");

@@ -79,6 +79,10 @@ TEST(SweepRefusals, OfWords) {
           "--index: \"one\" is no share; expected an integer from 1 to 2");
   refused({"plan.xml", "--out", "out", "--index", "3", "--of", "2"},
           "--index: there is no share 3 of 2; expected one from 1 to 2");
+  for (const std::string prints : {"--slurm", "--parallel"}) {  // it had no effect, and no message
+    EXPECT_EQ(folder.sweep({"plan.xml", "--out", "out", prints, "4", "--of", "2"}).exit, 2) << prints;
+    EXPECT_EQ(folder.sweep({"plan.xml", "--out", "out", prints, "4"}).exit, 0) << prints;
+  }
   refused({"plan.xml", "--out", "way.csv"}, "--out: way.csv is a file; expected a folder");
 }
 
