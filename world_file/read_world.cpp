@@ -75,6 +75,7 @@ RecordDeclaration read_record(const XmlElement& element, double dt) {
     else if (given.name != "table")
       refuse_unknown(given, "record", {"table", "every"});
   }
+  if (!element.children.empty()) refuse_inside(element);
   return result;
 }
 

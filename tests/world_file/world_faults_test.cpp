@@ -41,6 +41,9 @@ TEST_F(Faults, Fault5MisspeltNames) {
   EXPECT_EQ(error_with("<record tabel='x'/>"),
             "world.xml:2:1: <record> has no attribute \"table\", which it needs; expected a table's name: "
             "set/row/quantity, or set/*/quantity for all rows");
+  EXPECT_EQ(error_with("<record table='x'><c/></record>"),
+            "world.xml:2:19: <c> stands inside <record> of line 2, which takes attributes only; expected elements side "
+            "by side in <world>, each closed by \"/>\"");
   EXPECT_EQ(
       error_with("<record table='x' evry='2'/>"),
       "world.xml:2:19: <record> has no attribute \"evry\"; expected one of table, every; did you mean \"every\"?");
