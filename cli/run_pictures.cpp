@@ -9,6 +9,7 @@
 #include "cli/pose_angles.hpp"
 #include "diagnosis/radio/links/floor_plan.hpp"
 #include "diagnosis/radio/links/run_tables.hpp"
+#include "plotting/scale.hpp"
 #include "text/error.hpp"
 #include "text/number.hpp"
 
@@ -168,8 +169,18 @@ plotting::Figure RunPictures::plan_figure() const {
 }
 
 plotting::Figure RunPictures::rssi_figure() const {
+  double low = -80, high = -40;  // dBm, so that pictures of several runs can be compared; further where the data is
+  for (const Moment& m : moments_) {
+    for (const auto* levels : {&m.rssi, &m.smooth}) {
+      for (const double level : *levels) {
+        if (!plotting::drawable(level)) continue;
+        low = std::min(low, 10 * std::floor(level / 10));
+        high = std::max(high, 10 * std::ceil(level / 10));
+      }
+    }
+  }
   plotting::Panel panel{.x = {.label = "time", .unit = "s"},
-                        .y = {.label = "RSSI", .unit = "dBm", .from = -80, .to = -40}};
+                        .y = {.label = "RSSI", .unit = "dBm", .from = low, .to = high}};
   const auto trace = [this](std::size_t i, std::vector<double> Moment::*what) {
     plotting::Line line{.colour = plotting::series_colour(i)};
     for (const Moment& m : moments_) {

@@ -147,8 +147,8 @@ TEST(RssiMap, WhatIsNotReceivedIsEmpty) {
 TEST(RssiMap, OfARadioThatIsNowhereReceivedHasNoRange) {
   const ProgramFolder folder;
   folder.write("world.xml", world_of(walls + radios));
-  std::vector<std::string> words = {"map",  "world.xml", "--from",  "a",  "--area",  "5000",  "-1",
-                                    "5100", "1",         "--cells", "10", "--drawn", "--out", "map"};
+  std::vector<std::string> words = {"map", "world.xml", "--from",  "a",  "--area",  "700",   "-1",
+                                    "720", "1",         "--cells", "10", "--drawn", "--out", "map"};
   EXPECT_THAT(folder.muster(words).out, HasSubstr("  a                nothing received\n"));
   words.push_back("--json");
   const Outcome outcome = folder.muster(words);
@@ -177,6 +177,18 @@ TEST(RssiMap, RefusesWhatIsNoRadioAndNoArea) {
       folder.muster({"map", "world.xml", "--area", "1", "2", "1", "3", "--out", "map"}), 2,
       "--area: 1 2 1 3: X0 and X1 are both 1; expected X0 Y0 X1 Y1, two corners, X0 < X1 and Y0 < Y1; did you mean "
       "--area 1 1 2 3? (from its order X0 X1 Y0 Y1)");
+}
+
+// Levels below -80 dBm were cut off.
+TEST(RunPictures, TheAxisOfRssiReachesTheWeakestLevel) {
+  const ProgramFolder folder;
+  folder.write("world.xml",
+               world_of("<station name=\"a\" at=\"0 0 1\"/><station name=\"b\" at=\"900 0 1\"/>"
+                        "<radio.multiwall tx_power=\"0\" l0=\"40\" n=\"2\"/><radio.receiver sensitivity=\"-120\"/>"
+                        "<network.ideal/><control.beacon radio=\"a\"/><observe.chain chain=\"a b\"/>"));
+  const Outcome outcome = folder.muster({"run", "world.xml", "--out", "out"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_THAT(folder.read("out/rssi.svg"), HasSubstr("\u2212100"));  // it is -99.1 dBm
 }
 
 }  // namespace
