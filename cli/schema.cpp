@@ -1,12 +1,10 @@
 // muster schema: an XML schema of world files for editors, from the declarations that muster check goes by.
 #include <fmt/core.h>
 
-#include <cerrno>
-#include <fstream>
-
 #include "schema_text.hpp"
-#include "text/error.hpp"
+#include "text/whole_file.hpp"
 #include "verbs.hpp"
+#include "written_files.hpp"
 
 namespace muster::cli {
 
@@ -21,6 +19,7 @@ int run_schema(const Arguments& arguments) {
   line.option("-o,--out", out, "the file to write; standard output if not given");
   line.option("--plugins", folders, "a folder of plugins, looked in first");
   line.parse(arguments);
+  WrittenFiles().writes(out, "--out");
   std::vector<std::shared_ptr<Library>> libraries;
   std::set<std::string> known;
   for (const auto& listed : list_plugins(plugin_path(folders))) {
@@ -31,9 +30,7 @@ int run_schema(const Arguments& arguments) {
   }
   const std::string schema = schema_text(standard(), libraries);
   if (out.empty()) return fmt::print("{}", schema), 0;
-  std::ofstream file(out, std::ios::binary);
-  file << schema;
-  if (!file.flush()) throw Error(Exit::io, {out}, "cannot be written: " + system_message(errno));
+  write_whole(out, schema);
   fmt::print("wrote {}, {} elements and {} plugins\n", out, standard().elements.size(), libraries.size());
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace muster::exam {
 
@@ -19,10 +20,17 @@ inline std::string read_file(const std::filesystem::path& file) {
   return text.str();
 }
 
+// Under its name when it is whole; until then one that was there stays.
 inline void write_file(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
+  const std::filesystem::path part = file.string() + ".part";
+  std::ofstream out(part, std::ios::binary);
   out << text;
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+  std::error_code failed;
+  out.close();
+  if (out) std::filesystem::rename(part, file, failed);
+  if (out && !failed) return;
+  std::filesystem::remove(part, failed);
+  throw std::runtime_error("cannot write " + file.string());
 }
 
 }  // namespace muster::exam

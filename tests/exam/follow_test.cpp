@@ -30,6 +30,20 @@ TEST(Follow, TheCaseOfAnAnswerIsTheSameToTheBit) {
   }
 }
 
+// A file that was there was cut off first: a full disk left neither.
+TEST(WrittenFile, TakesItsNameWhenItIsWhole) {
+  const fs::path folder = fs::temp_directory_path() / ("muster_written_test_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  write_file(folder / "a", "old");
+  fs::create_hard_link(folder / "a", folder / "b");
+  write_file(folder / "b", "new");
+  EXPECT_EQ(read_file(folder / "a"), "old");
+  EXPECT_EQ(read_file(folder / "b"), "new");
+  EXPECT_FALSE(fs::exists(folder / "b.part"));
+  EXPECT_THROW(write_file(folder / "none/b", "x"), std::runtime_error);
+  fs::remove_all(folder);
+}
+
 // Poses: robot 1 at a place, a station at a place with a heading.
 struct Standing {
   int station = 0;

@@ -152,6 +152,13 @@ TEST_F(Schema, GoesToStandardOutputWithoutAFile) {
   const auto outcome = folder_->muster({"schema"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(outcome.out, folder_->read("muster.xsd"));
+  folder_->write("mine", "");
+  std::filesystem::create_hard_link(folder_->path() / "mine", folder_->path() / "linked.xsd");
+  EXPECT_EQ(folder_->muster({"schema", "-o", "linked.xsd"}).exit, 0);
+  EXPECT_EQ(folder_->read("mine"), "") << "a new file takes the name; the old one is not written over";
+  std::filesystem::create_directory(folder_->path() / "folder");
+  expect_error(folder_->muster({"schema", "-o", "folder"}), 2,
+               "--out: folder is a folder; expected another file to write");
   expect_error(folder_->muster({"schema", "-o", "no/where.xsd"}), 74,
                "no/where.xsd: cannot be written: No such file or directory");
 }
