@@ -207,7 +207,12 @@ std::vector<double> map_of(const Sender& sender, const std::string& receiver, co
 void write_table(const std::vector<Sender>& senders, const std::vector<std::vector<double>>& maps, const Grid& grid,
                  const fs::path& file) {
   std::vector<TextColumn> columns{{"x", "m"}, {"y", "m"}};
-  for (const Sender& s : senders) columns.push_back({s.name, "dBm"});
+  for (const Sender& s : senders) {
+    std::string name = s.name;  // a radio may be called x or y
+    const auto is_taken = [&](const TextColumn& column) { return column.name == name; };
+    while (std::any_of(columns.begin(), columns.end(), is_taken)) name.insert(0, "rssi_");
+    columns.push_back({name, "dBm"});
+  }
   TextTableWriter table(file, columns);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     table.real(grid.x(i)), table.real(grid.y(i));

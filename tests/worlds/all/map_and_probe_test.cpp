@@ -143,6 +143,16 @@ TEST(RssiMap, WhatIsNotReceivedIsEmpty) {
     EXPECT_EQ(std::isnan(rssi[i]), level(x[i], (x[i] > 2 ? 6 : 0) + (x[i] > 4 ? 3 : 0)) < -70) << x[i];
 }
 
+// Two columns of one name are refused by whoever reads the table.
+TEST(RssiMap, OfARadioCalledAsAPlaceIsHasAColumnOfItsOwn) {
+  const ProgramFolder folder;
+  folder.write("world.xml", world_of("<station name=\"x\" at=\"0 0 1\"/><radio.multiwall/>"));
+  const Outcome outcome = folder.muster({"map", "world.xml", "--cells", "4", "--out", "map"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const TextTable table = TextTable::read(folder.path() / "map/map.csv");
+  EXPECT_LT(table.reals(table.require("rssi_x", "dBm"))[0], 0);
+}
+
 // It was said to be received with 0 to 1 dBm.
 TEST(RssiMap, OfARadioThatIsNowhereReceivedHasNoRange) {
   const ProgramFolder folder;
