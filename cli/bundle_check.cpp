@@ -214,6 +214,7 @@ void print_parting(const Parting& parting, double dt) {
 }  // namespace
 
 Exit check_bundle(const BundleCheckWords& words) {
+  watch_interrupt();  // from here on, so that what is unpacked is taken away
   const UnpackedBundle unpacked(words.file, words.out);
   const bundle::Manifest& manifest = unpacked.manifest();
   const bundle::Faults faults = bundle::faults_of(unpacked.path(), manifest);

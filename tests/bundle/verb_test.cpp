@@ -1,5 +1,7 @@
 // A bundle comes to the digest of the run that it was made of, without any of its sources; what was changed, and what
 // differs on this machine, is told by name.
+#include <signal.h>
+
 #include "bundled.hpp"
 
 namespace muster::test {
@@ -23,6 +25,18 @@ TEST(Bundle, RunsWithoutItsSources) {
   // The three tables of one name are three files of the bundle, and each is needed for the digest.
   for (const std::string name : {"a/way.csv", "b/way.csv", "outside/shared/way.csv"})
     EXPECT_THAT(made["files"], testing::Contains("world/site/" + name));
+}
+
+// What was unpacked stayed in the folder of temporary files.
+TEST(Bundle, ACheckThatIsInterruptedLeavesNothingBehind) {
+  const BundleFolder folder;
+  ASSERT_EQ(folder.bundle({"lab/site", "--until", "1000", "--out", "b.tar.zst"}).exit, 0);
+  fs::create_directory(folder / "tmp");
+  Surroundings around;
+  around.environment = {"TMPDIR=" + folder.at("tmp")};
+  around.meanwhile = [](int process) { ::kill(process, SIGINT); };
+  EXPECT_EQ(folder.muster({"bundle", "check", "b.tar.zst"}, around).exit, 130);
+  EXPECT_TRUE(fs::is_empty(folder / "tmp"));
 }
 
 TEST(Bundle, KeepsSeedEndAndParameters) {
