@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include "diagnosis/report/fit_report.hpp"
 #include "diagnosis/report/noise_report.hpp"
@@ -73,7 +74,9 @@ void refuse_exchanged(const FitWords& words) {
 struct NaturalExponent {
   std::string path;
   double value, lower95, upper95;
-  double reach, mistaken;  // of -60 dBm in the open [m]: with it, and with its n taken for one of base 10
+  // Of -60 dBm in the open [m]: with it, and with its n taken for one of base 10; NaN of a plugin without tx_power or
+  // l0.
+  double reach, mistaken;
 };
 
 std::vector<NaturalExponent> natural_exponents(const report::FitReport& report) {
@@ -84,10 +87,13 @@ std::vector<NaturalExponent> natural_exponents(const report::FitReport& report) 
   for (const auto& n : fitted) {
     if (!n.path.ends_with("/n") || !n.identifiable) continue;
     const std::string owner = n.path.substr(0, n.path.size() - 1);
+    const auto all = report.simulation().parameters();
     const auto of = [&](const std::string& name) {
-      const auto found =
-          std::find_if(fitted.begin(), fitted.end(), [&](const auto& p) { return p.path == owner + name; });
-      return found != fitted.end() ? found->value : report.simulation().parameter(owner + name).value;
+      const auto is_it = [&](const auto& p) { return p.path == owner + name; };
+      const auto found = std::find_if(fitted.begin(), fitted.end(), is_it);
+      const auto given = std::find_if(all.begin(), all.end(), is_it);
+      if (found != fitted.end()) return found->value;
+      return given != all.end() ? given->value : std::numeric_limits<double>::quiet_NaN();
     };
     const double loss = of("tx_power") - of("l0") - level;  // that distance may have [dB]
     result.push_back({n.path, n.value / ten, n.lower95 / ten, n.upper95 / ten, std::pow(10, loss / (10 * n.value)),
@@ -97,13 +103,17 @@ std::vector<NaturalExponent> natural_exponents(const report::FitReport& report) 
 }
 
 void print_natural(const std::vector<NaturalExponent>& exponents) {
-  for (const auto& n : exponents)
+  for (const auto& n : exponents) {
     fmt::print(
         "\nWith natural logarithms, L = l0 + 10 n ln d, the same path loss has {} = {:.3f} ({:.3f} to {:.3f}); l0 is "
-        "the "
-        "same.\nIn the open it leaves -60 dBm at {:.4g} m. Taken for an exponent of base 10, that n would put it at "
-        "{:.4g} m.\n",
-        n.path, n.value, n.lower95, n.upper95, n.reach, n.mistaken);
+        "the same.\n",
+        n.path, n.value, n.lower95, n.upper95);
+    if (std::isnan(n.reach)) continue;
+    fmt::print(
+        "In the open it leaves -60 dBm at {:.4g} m. Taken for an exponent of base 10, that n would put it at {:.4g} "
+        "m.\n",
+        n.reach, n.mistaken);
+  }
 }
 
 // --table beside readings of radios, which need none.
