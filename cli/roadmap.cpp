@@ -176,9 +176,13 @@ std::vector<RobotsGoal> goals_of(const World& world) {
       return found == instance.attributes.end() ? std::string() : found->value;
     };
     if (value("goals").empty() || value("robot").empty()) continue;
-    const TextTable table = TextTable::read(world.file.parent_path() / value("goals"));
-    const auto x = table.reals(table.require("x", "m")), y = table.reals(table.require("y", "m"));
-    for (std::size_t i = 0; i < x.size(); ++i) result.push_back({value("robot"), {x[i], y[i]}});
+    try {
+      const TextTable table = TextTable::read(world.file.parent_path() / value("goals"));
+      const auto x = table.reals(table.require("x", "m")), y = table.reals(table.require("y", "m"));
+      for (std::size_t i = 0; i < x.size(); ++i) result.push_back({value("robot"), {x[i], y[i]}});
+    } catch (const Error&) {
+      continue;
+    }
   }
   return result;
 }

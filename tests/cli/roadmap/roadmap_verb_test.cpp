@@ -134,5 +134,16 @@ TEST(RoadmapVerb, RefusesWordsThatItCannotUse) {
   refused({"--radius", "0.2"}, "empty.xml: there is neither a wall nor a robot: no area to plan in", "empty.xml");
 }
 
+// Goals are only looked at for a warning: a file that no controller could read was an error of the roadmap.
+TEST(RoadmapVerb, GoalsThatCannotBeReadAreLeftToTheRun) {
+  const ProgramFolder folder;
+  folder.write("goals.csv", "a,b\n1,1\n");
+  folder.write("world.xml", world_of(box + rover + "<control.navigate robot=\"rover\" goals=\"goals.csv\"/>"));
+  const std::vector<std::string> words = {"--radius", "0.5", "--margin", "0", "--room", "5"};
+  EXPECT_EQ(figures(folder, words)["nodes"], 4);
+  std::filesystem::remove(folder / "goals.csv");
+  EXPECT_EQ(figures(folder, words)["nodes"], 4);
+}
+
 }  // namespace
 }  // namespace muster::test
