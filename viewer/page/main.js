@@ -119,7 +119,10 @@ class Page {
     fill_keys(at('keys-box'));
     fill_about(at('about-box'), this.record);
     at('keys').addEventListener('click', () => at('keys-box').showModal());
-    at('about').addEventListener('click', () => at('about-box').showModal());
+    at('about').addEventListener('click', () => {
+      fill_about(at('about-box'), this.record);  // of a run that has gone on since
+      at('about-box').showModal();
+    });
     document.addEventListener('keydown', (event) => {
       if (event.key === '?' && !document.querySelector('dialog[open]')) at('keys-box').showModal();
     });

@@ -40,6 +40,7 @@ function tables_of(record) {
 
 export function fill_about(box, record) {
   const {run} = record;
+  box.replaceChildren();
   const facts = [['World', run.world], ['File', run.file], ['Seed', String(run.seed)], ['Step', `${run.dt} s`], ['Ticks', `${run.ticks} (${run.time} s)`], ['Digest', run.digest], ['muster', run.version]];
   box.append(
     element('h2', 'About this page'),
