@@ -10,7 +10,7 @@ export class Record {
     this.scene = head.scene;
     this.notes = [...head.run.notes ?? [], ...head.notes ?? []];
     this.tables = head.tables.map((table) => new Table(table, bytes));
-    this.first = 0;
+    this.first = Infinity;  // of a run that goes on from a state, its start
     this.last = this.run.time;
     for (const table of this.tables) {
       for (const t of table.time) {
@@ -18,6 +18,7 @@ export class Record {
         if (t > this.last) this.last = t;
       }
     }
+    if (this.first > this.last) this.first = 0;  // nothing is recorded
     this.motions = this.find_motions();
     this.links = link_sources(this);
     this.scans = this.tables.find((table) => table.name === 'scan/*/message' && table.column('ranges')?.code.kind === 'lists');
