@@ -49,18 +49,29 @@ Json walls(const Simulation& run) {
   return result;
 }
 
+// As the world file has it, for a run in which no plugin reads how doors stand.
+bool declared_open(const Simulation& run, const std::string& door) {
+  for (const RowDeclaration& row : run.world().rows) {
+    if (row.set != "door" || row.name != door) continue;
+    for (const StoredValues& given : row.values)
+      if (given.table == "door/state" && !given.values.empty()) return given.values[0] != 0;
+  }
+  return false;
+}
+
 Json doors(const Simulation& run) {
   Json result = Json::array();
   const NamedRows<Door> doors(run, "door", "shape");
   const NamedRows<DoorState> states(run, "door", "state");
   for (std::size_t i = 0; i < doors.rows.size(); ++i) {
     const Door& d = doors.rows[i];
+    const bool open = i < states.rows.size() ? states.rows[i].open != 0 : declared_open(run, doors.names[i]);
     result.push_back({{"name", doors.names[i]},
                       {"wall", name_at(run, "wall", d.wall)},
                       {"at", d.at},
                       {"width", d.width},
                       {"height", d.height},
-                      {"open", states.rows.at(i).open != 0}});
+                      {"open", open}});
   }
   return result;
 }

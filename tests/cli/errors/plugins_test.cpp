@@ -285,4 +285,14 @@ TEST(Fault19, ClaimsThatDoNotFitAreRefusedAtTheStart) {
                "... (32 in all)");
 }
 
+// The scene of the record asked for the states of doors, which are in no table of such a run.
+TEST(Scene, OfARunThatReadsOnlyTheShapesOfDoorsIsRecorded) {
+  const ProgramFolder folder;
+  const auto outcome = run_toy(folder,
+                               R"(<material name="m" loss="6"/><wall name="w" from="0 0" to="4 0" material="m"/>)"
+                               R"(<door name="d" wall="w" at="1" state="open"/><test.reads_doors/>)",
+                               {"--out", "out"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+}
+
 }  // namespace
