@@ -64,7 +64,7 @@ struct Spot {
 };
 
 struct ControlMission {
-  static constexpr auto id = "control.mission/1";
+  static constexpr auto id = "control.mission/2";
   static constexpr auto summary = "does a mission: places, patrols, messages, links to keep, choices";
   static constexpr auto manual =
       "`mission` is an XML file in the world's folder: <go_to>, <patrol>, <follow>, <wait>, <say>, <keep_link>,\n"
@@ -90,19 +90,21 @@ struct ControlMission {
     static constexpr const char* columns =
         "line mission at begun began[s] x[m]? y[m]? z[m]? yaw[rad]? leader_x[m]? leader_y[m]? leader_z[m]? held "
         "good_x[m]? "
-        "good_y[m]? good_z[m]? handled count0 count1 count2 count3 rssi0[dBm]? rssi1[dBm]? rssi2[dBm]? rssi3[dBm]? "
+        "good_y[m]? good_z[m]? next_x[m]? next_y[m]? next_z[m]? next_since[s] handled count0 count1 count2 count3 "
+        "rssi0[dBm]? rssi1[dBm]? rssi2[dBm]? rssi3[dBm]? "
         "heard0[s] heard1[s] heard2[s] heard3[s] kept0? kept1? kept2? kept3? mail{}";
     double line, mission, at;  // in the file; the mission's mark; number of the instruction
     double begun, began;       // 1 while an instruction goes on, and since when
     double x, y, z, yaw;       // where it is to be
     double leader_x, leader_y, leader_z;
-    double held, good_x, good_y, good_z;  // 1 while a link that is kept is too weak; where all were strong
-    double handled;                       // 1: a message has ended the mission
+    double held, good_x, good_y, good_z;        // 1 while a link that is kept is too weak; where all were strong
+    double next_x, next_y, next_z, next_since;  // the next such place once the filter has followed, null where weak
+    double handled;                             // 1: a message has ended the mission
     double count[most_loops];
     double rssi[most_links], heard[most_links], kept[most_links];  // the number of the <keep_link>
     double mail;
   };
-  static constexpr unsigned mail_column = 33;
+  static constexpr unsigned mail_column = 37;
   static_assert(sizeof(State) == (mail_column + 1) * sizeof(double) && most_loops == 4 && most_links == 4);
 
   explicit ControlMission(Setup& s)
@@ -156,7 +158,7 @@ struct ControlMission {
   void begin_anew(State& now) const {
     now = {};
     now.mission = program.mark;
-    now.x = now.leader_x = now.good_x = null();
+    now.x = now.leader_x = now.good_x = now.next_x = null();
     std::fill(now.rssi, now.rssi + most_links, null());
     std::fill(now.kept, now.kept + most_links, null());
   }
@@ -217,17 +219,30 @@ struct ControlMission {
   // A link is too weak below its level, and again strong enough above that and its margin.
   void look_at_links(const Step& k, State& now, const Spot& here) const {
     bool weak = false, strong = true, any = false;
+    double longest = 0;  // [s] silence that is borne
     for (std::size_t link = 0; link < program.links.size(); ++link) {
       if (is_null(now.kept[link])) continue;
       const Instruction& keep = program.code[static_cast<std::size_t>(now.kept[link])];
       const bool heard = !is_null(now.rssi[link]) && k.time() - now.heard[link] <= keep.lost;
       any = true;
+      longest = std::max(longest, keep.lost);
       weak = weak || !heard || now.rssi[link] < keep.number;
       strong = strong && heard && now.rssi[link] >= keep.number + keep.margin;
     }
     const bool was_held = now.held != 0;
     now.held = any && (was_held ? !strong : weak);
-    if (now.held == 0 || is_null(now.good_x)) now.good_x = here.x, now.good_y = here.y, now.good_z = here.z;
+    constexpr double followed = 3;  // time constants, after which the filter has 95 % of a step
+    remember(k, now, here, strong, any ? followed * k[smoothing] + longest : 0);
+  }
+
+  // Filtered levels are those of places further back. So where they are strong becomes a place to go back to only when
+  // they are still strong after the filter's `lag`: at the last strong one the link itself is weaker.
+  static void remember(const Step& k, State& now, const Spot& here, bool strong, double lag) {
+    if (is_null(now.good_x)) now.good_x = here.x, now.good_y = here.y, now.good_z = here.z;
+    if (!strong) now.next_x = null();
+    if (!strong || (!is_null(now.next_x) && k.time() - now.next_since < lag)) return;
+    if (!is_null(now.next_x)) now.good_x = now.next_x, now.good_y = now.next_y, now.good_z = now.next_z;
+    now.next_x = here.x, now.next_y = here.y, now.next_z = here.z, now.next_since = k.time();
   }
 
   bool is_over(const Step& k, const State& now, const Instruction& doing, const char* what) const {

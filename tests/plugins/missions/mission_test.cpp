@@ -101,8 +101,30 @@ TEST_F(Missions, ALinkIsKept) {
   EXPECT_GT(farthest, limit);
   EXPECT_LT(farthest, limit + 2.5);
   EXPECT_GT(place_of(sim).x, free - 1.5);
-  EXPECT_GE(turns, 3);  // it tries again
+  EXPECT_GE(turns, 7);  // it tries again, and again; the first two are of the time before it heard the base
   EXPECT_EQ(line(sim), 3);
+}
+
+// The place of the tick before was no longer strong: the robot stayed there for ever.
+TEST_F(Missions, AHeldRobotGoesBackToWhereItsLinkWasStrongAndThenGoesOn) {
+  Simulation sim =
+      run("<wait seconds='1'/>\n<keep_link to='base' above='-60' margin='3'>\n<go_to at='30 0'/>\n"
+          "</keep_link>",
+          "<control.beacon radio='base' period='0.2'/>");
+  const auto is_held = [&] { return sim.table("instance/mission/state").at(0, 12) != 0; };
+  const auto run_until = [&](bool held) {
+    for (const double end = sim.time() + 40; sim.time() < end && is_held() != held;) sim.step();
+    return is_held() == held;
+  };
+  run_to(sim, 5);
+  ASSERT_FALSE(is_held());
+  ASSERT_TRUE(run_until(true));
+  const double turns_back = place_of(sim).x;
+  EXPECT_GT(turns_back, 10);
+  ASSERT_TRUE(run_until(false));
+  EXPECT_LT(place_of(sim).x, std::pow(10, 17 / 20.0)) << "the link is strong nearer than that";
+  ASSERT_TRUE(run_until(true)) << "it goes on";
+  EXPECT_NEAR(place_of(sim).x, turns_back, 0.5);
 }
 
 TEST_F(Missions, WithoutAWordFromTheOtherItStaysWhereItIs) {
