@@ -14,15 +14,17 @@ namespace {
 using namespace muster;
 
 struct ObserveChain {
-  static constexpr auto id = "observe.chain/2";
+  static constexpr auto id = "observe.chain/3";
   static constexpr auto summary = "level, rssi, distance and walls of the links along a chain of radios";
   static constexpr auto manual =
       "`chain` names radios from one end to the other; the link of two neighbours is the one on which the further\n"
       "hears the nearer, and its columns in self/chain end in the further's name. level, rssi and distance are\n"
       "those of this tick, null without a link; rssi that was not received keeps its last value. smooth is rssi in\n"
       "a first-order filter. walls is the part of the level that the adder named by `walls` gave. below is the time\n"
-      "that smooth spent under `threshold`, share that time over the time since rssi was first received, worst the\n"
-      "lowest smooth so far. constant is the time constant with which smooth goes to `threshold`, from its first "
+      "that smooth spent under `threshold` or nothing was received, share that time over the time since rssi was "
+      "first\n"
+      "received, worst the lowest smooth so far. constant is the time constant with which smooth goes to `threshold`, "
+      "from its first "
       "value\n"
       "to this one by the method of areas (Astrom and Hagglund, PID Controllers, 1995, section 2.4): the integral of\n"
       "smooth - threshold over how much that fell. It is exact for an exponential, holds the filter's own lag, and is\n"
@@ -138,11 +140,13 @@ struct ObserveChain {
       const Seen& before = reinterpret_cast<const Seen*>(&k.last(chain)->first)[i];
       now = {null(),       before.rssi,  before.smooth, null(),         null(),
              before.below, before.share, before.worst,  before.constant};
-      if (const int link = link_of(k, radios[i], radios[i + 1]); link >= 0)
-        look(k, static_cast<std::size_t>(link), now);
+      const int link = link_of(k, radios[i], radios[i + 1]);
+      const bool is_silent = link < 0 || !look(k, static_cast<std::size_t>(link), now);
       Approach& way = reinterpret_cast<Approach*>(&k[approach]->first)[i];
       way = reinterpret_cast<const Approach*>(&k.last(approach)->first)[i];
-      if (!is_null(now.smooth)) follow(k, before.smooth, way, now);
+      if (is_null(now.smooth)) continue;
+      if (is_silent || now.smooth < k[threshold]) now.below += k.dt();
+      follow(k, before.smooth, way, now);
     }
   }
 
@@ -157,18 +161,19 @@ struct ObserveChain {
     now.constant = is_nearer ? (away * (way.since - k.dt()) - way.area) / fell : null();
   }
 
-  void look(const Step& k, std::size_t link, Seen& now) const {
+  // False where nothing was received.
+  bool look(const Step& k, std::size_t link, Seen& now) const {
     const Pose& a = k[pose][static_cast<std::size_t>(k[ends][link].tx)];
     const Pose& b = k[pose][static_cast<std::size_t>(k[ends][link].rx)];
     now.distance = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
     if (!k[level].empty()) now.level = k[level][link].level;
     if (!k[walls].empty()) now.walls = 0 - k[walls][link].level;
-    if (k[rssi].empty() || is_null(k[rssi][link].rssi)) return;
+    if (k[rssi].empty() || is_null(k[rssi][link].rssi)) return false;
     now.rssi = k[rssi][link].rssi;
     const double weight = k[smoothing] > 0 ? 1 - std::exp(-k.dt() / k[smoothing]) : 1;
     now.smooth = is_null(now.smooth) ? now.rssi : now.smooth + weight * (now.rssi - now.smooth);
-    if (now.smooth < k[threshold]) now.below += k.dt();
     if (!(now.worst <= now.smooth)) now.worst = now.smooth;  // also without an earlier one
+    return true;
   }
 
   // The row of the link from radio `tx` to radio `rx`, or -1.

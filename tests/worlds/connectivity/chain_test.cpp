@@ -73,4 +73,20 @@ TEST(Chain, TheShareOfTimeBelow) {
   EXPECT_EQ(link.share, 0);
 }
 
+// A silent link was not below, and its share fell.
+TEST(Chain, ASilentLinkIsBelow) {
+  Folder folder;
+  Simulation run = world_of(folder,
+                            "<station name='a' at='0 0 1'/><station name='b' at='1 0 1'/><test.slope name='hill'/>"
+                            "<network.ideal/><observe.chain name='chain' chain='a b'/>"
+                            "<at t='1'><set path='hill/slope' value='100'/></at>",
+                            {}, "dt='0.05' until='4' seed='1'");
+  while (!run.done()) run.step();
+  const ChainLink link = row<OneLink>(run, "instance/chain/chain").link;
+  EXPECT_LT(link.level, -95) << "the receiver's sensitivity";
+  EXPECT_NEAR(link.below, 3, 0.11);
+  EXPECT_NEAR(link.share, 0.75, 0.03);
+  EXPECT_GT(link.worst, -32);
+}
+
 }  // namespace
