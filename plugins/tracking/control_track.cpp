@@ -29,8 +29,10 @@ struct ControlTrack {
       "With `aware`, the place where a message would be received with probability `reception` is another bound: the\n"
       "disc about the base whose radius follows from the mean rssi of the base's messages, by the path-loss exponent\n"
       "`n`, if received power is exponential about its mean (Rayleigh fading): P = exp(-sensitivity / mean power).\n"
-      "A robot that has heard nothing for `lost` comes back. A goal outside of a bound or in an obstacle is moved to\n"
-      "its edge. It knows its odometry, its sighting and its inbox; the other robots are no obstacles to it.\n"
+      "A robot that has heard nothing for `lost` comes back; without a sighting, to the base itself. A goal outside\n"
+      "of a bound or in an obstacle is moved to its edge. It knows its odometry, its sighting and its inbox; the other "
+      "robots are no\n"
+      "obstacles to it.\n"
       "A. Ghaffarkhah, Y. Mostofi: Communication-aware target tracking using navigation functions - centralized case,\n"
       "ROBOCOMM 2009.";
   static constexpr auto phase = MUSTER_CONTROL;
@@ -130,8 +132,11 @@ struct ControlTrack {
     now.reach = k[aware] != 0 ? reach(k, now, from_base) : null();
     const Sighting& seen = *k[sighting];
     *k[command] = {0, 0};
-    if (!is_null(seen.x)) {
-      *k[command] = steer(k, now, here, from_base);
+    if (is_null(seen.x)) {
+      const bool is_lost = k.time() - now.heard > k[lost];
+      if (k[aware] != 0 && is_lost) *k[command] = steer(k, now, here, from_base, {k[base_x], k[base_y]});
+    } else {
+      *k[command] = steer(k, now, here, from_base, beside(k, seen));
       if (seen.t > now.told) tell(k, {seen.x, seen.y, seen.deviation});
       now.told = seen.t;
     }
@@ -160,15 +165,17 @@ struct ControlTrack {
     return std::max(from_base, 1.0) * std::pow(10, (now.level - needed) / (10 * k[n]));
   }
 
+  Vector2 beside(const Step& k, const Sighting& seen) const {
+    return {seen.x + k[standoff] * std::cos(k[side]), seen.y + k[standoff] * std::sin(k[side])};
+  }
+
   // The goal is moved inside of all bounds; the robot may be outside of that of reception, which then goes through it.
-  Command steer(const Step& k, State& now, Vector2 here, double from_base) const {
+  Command steer(const Step& k, State& now, Vector2 here, double from_base, Vector2 wanted) const {
     constexpr double margin = 0.05;  // [m]
     std::vector<Disc> bounds{{k[room_x], k[room_y], k[room] - k[clearance]}},
         obstacles(k[discs].begin(), k[discs].end());
     for (Disc& d : obstacles) d.radius += k[clearance];
     if (!is_null(now.reach)) bounds.push_back({k[base_x], k[base_y], std::max(now.reach, 2 * margin)});
-    const Sighting& seen = *k[sighting];
-    const Vector2 wanted{seen.x + k[standoff] * std::cos(k[side]), seen.y + k[standoff] * std::sin(k[side])};
     const Vector2 goal = tracking::inside(wanted, bounds, obstacles, margin);
     now.goal_x = goal.x, now.goal_y = goal.y;
     if (bounds.size() > 1) bounds[1].radius = std::max(bounds[1].radius, from_base + margin);

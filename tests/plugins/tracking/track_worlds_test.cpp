@@ -1,0 +1,38 @@
+// Robots that follow a target: what they do without a sighting, and what they tell.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/plugins/robots/robot_world.hpp"
+
+namespace muster::test {
+namespace {
+
+// A scout 10 m east of its base, and a target further east.
+Simulation followed(const Folder& folder, const std::string& sighting, const std::string& track,
+                    const std::string& more = "") {
+  return world_of(folder,
+                  "<station name='base' at='0 0 1'/><robot name='scout' at='10 0 0'/><robot name='target' at='25 0 0'/>"
+                  "<physics.planar/><robots.drive/><robots.odometry/><radio.multiwall l0='40' n='2'/><network.ideal/>"
+                  "<sensors.sighting target='target' " +
+                      sighting + "/><control.track robot='scout' base='base' obstacles='discs.csv' " + track + "/>" +
+                      more,
+                  {{"discs.csv", "x[m],y[m],radius[m]\n0,20,1\n"}});
+}
+
+double x_at(Simulation& run, double time) {
+  while (run.time() < time - run.world().dt / 2) run.step();
+  return row<Pose>(run, "robot/scout/pose").x;
+}
+
+// It stood still for ever where it had lost both.
+TEST(Track, ARobotWithoutBaseAndTargetComesBack) {
+  const Folder folder;
+  Simulation aware = followed(folder, "range='5'", ""), unaware = followed(folder, "range='5'", "aware='false'");
+  EXPECT_NEAR(x_at(aware, 2.9), 10, 0.01) << "the base has been silent for less than `lost`";
+  EXPECT_LT(x_at(aware, 25), 5) << "0.4 m/s";
+  EXPECT_NEAR(x_at(unaware, 25), 10, 0.01);
+}
+
+}  // namespace
+}  // namespace muster::test
