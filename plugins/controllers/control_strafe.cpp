@@ -15,7 +15,7 @@ namespace {
 using namespace muster;
 
 struct ControlStrafe {
-  static constexpr auto id = "control.strafe/1";
+  static constexpr auto id = "control.strafe/2";
   static constexpr auto summary = "drives a mecanum robot through way points, ahead and sideways, by its own odometry";
   static constexpr auto manual =
       "The robot goes straight to the next way point at `speed` or, near it, at `slow_gain` for each metre, and holds\n"
@@ -73,12 +73,13 @@ struct ControlStrafe {
     if (next() < points.size() && Roadmap::distance({here.x, here.y}, points[next()]) <= k[tolerance]) {
       ++now.next;
       ++now.reached;
-      if (next() == points.size() && k[loop] != 0) now.next = 0;
     }
+    // Also beyond the last: before a swap the path may have been longer.
+    if (next() >= points.size() && k[loop] != 0) now.next = 0;
     *k[progress] = now;
     *k[command] = {0, Turning{k[turn_gain], k[turn_speed]}.rate(turn_to(k[heading], here.yaw))};
     *k[sideways] = {0};
-    if (next() == points.size()) return;
+    if (next() >= points.size()) return;
     const double dx = points[next()].x - here.x, dy = points[next()].y - here.y, away = std::hypot(dx, dy);
     if (away == 0) return;
     const double v = std::min(k[speed], k[slow_gain] * away) / away, c = std::cos(here.yaw), s = std::sin(here.yaw);

@@ -9,7 +9,7 @@ namespace {
 using namespace muster;
 
 struct ControlWaypoint {
-  static constexpr auto id = "control.waypoint/1";
+  static constexpr auto id = "control.waypoint/2";
   static constexpr auto summary = "drives a robot through way points by its own odometry";
   static constexpr auto manual =
       "The robot turns towards the next way point in proportion to the bearing and drives with its cosine; it turns\n"
@@ -49,11 +49,12 @@ struct ControlWaypoint {
     if (next() < points.size() && Roadmap::distance(here, points[next()]) <= k[tolerance]) {
       ++now.next;
       ++now.reached;
-      if (next() == points.size() && k[loop] != 0) now.next = 0;
     }
+    // Also beyond the last: before a swap the path may have been longer.
+    if (next() >= points.size() && k[loop] != 0) now.next = 0;
     *k[progress] = now;
     *k[command] = {0, 0};
-    if (next() == points.size()) return;
+    if (next() >= points.size()) return;
     const Waypoint& point = points[next()];
     *k[command] = towards(*k[odometry], point.x, point.y, k[speed], {k[turn_gain], k[turn_speed]});
   }

@@ -57,12 +57,12 @@ TEST(Compare, NamesTheFirstCellThatDiffersAndWhoWroteIt) {
   EXPECT_EQ(first["row"], "r");
   EXPECT_EQ(first["column"], "v[m/s]");
   EXPECT_EQ(first["values"], nlohmann::json({"0.3", "0.4"}));
-  EXPECT_EQ(first["writers"], nlohmann::json({"steer (control.waypoint/1)", "steer (control.waypoint/1)"}));
+  EXPECT_EQ(first["writers"], nlohmann::json({"steer (control.waypoint/2)", "steer (control.waypoint/2)"}));
   EXPECT_THAT(folder.muster({"compare", "world.xml", faster}).out,
               HasSubstr("B against A, to t = 4 s\n"
                         "  first     tick 1 (t = 0.05 s): robot/*/command, row r, v[m/s]\n"
-                        "            A = 0.3, by steer (control.waypoint/1)\n"
-                        "            B = 0.4, by steer (control.waypoint/1)\n"));
+                        "            A = 0.3, by steer (control.waypoint/2)\n"
+                        "            B = 0.4, by steer (control.waypoint/2)\n"));
 }
 
 // Not in the order of names: a body moves before its radio is heard.

@@ -216,6 +216,21 @@ TEST(MecanumDrive, OfTwoBackendsIsHandedOverWithoutAJump) {
   }
 }
 
+// Way points that had been reached on the longer path ended the run: row 2 of 1.
+TEST(MecanumDrive, AShorterPathThatIsSwappedInEndsNoRun) {
+  const Folder folder;
+  folder.write("square.csv", "x[m],y[m]\n2,0\n2,2\n0,2\n0,0\n");
+  folder.write("short.csv", "x[m],y[m]\n1,1\n");
+  Simulation run = driven(folder, "youbot", "physics.planar",
+                          "<robots.odometry/><control.strafe name='c' robot='r' path='square.csv' speed='0.5'/><at "
+                          "t='14'><swap instance='c' plugin='control.strafe' robot='r' path='short.csv'/></at>");
+  run_to(run, 14);
+  ASSERT_GE(run.table("instance/c/progress").at(0, 0), 2);
+  EXPECT_NO_THROW(run_to(run, 15));
+  EXPECT_EQ(row<Command>(run, "robot/r/command").v, 0);
+  EXPECT_EQ(row<Sideways>(run, "robot/r/sideways").v, 0);
+}
+
 TEST(MecanumDrive, FaultsAreNamed) {
   EXPECT_THAT(fault("youbot", {{"wheelbase=\"0.471\"", "wheelbase=\"0.47\""}}),
               testing::HasSubstr("<mecanum> wheelbase=\"0.47\" contradicts the joints, of which the front ones are "

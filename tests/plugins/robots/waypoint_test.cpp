@@ -101,4 +101,28 @@ TEST(Waypoint, LoopsWhereAsked) {
   EXPECT_GT(row<Progress>(run, "instance/c/progress").reached, 8);
 }
 
+// Way points that had been reached on the longer path ended the run: row 2 of 1.
+TEST(Waypoint, AShorterPathThatIsSwappedInEndsNoRun) {
+  for (const bool loops : {false, true}) {
+    Folder folder;
+    folder.write("short.csv", "x[m],y[m]\n1,1\n");
+    Simulation run = world_of(folder,
+                              "<robot name='r' at='0 0 0'/><test.turner/><control.waypoint name='c' robot='r' "
+                              "path='path.csv'/><at t='40'><swap instance='c' plugin='control.waypoint' robot='r' "
+                              "path='short.csv' loop='" +
+                                  std::string(loops ? "true" : "false") + "'/></at>",
+                              {{"path.csv", square}}, "dt='0.05' until='42' seed='1'");
+    while (run.time() < 39.99) run.step();
+    ASSERT_GE(row<Progress>(run, "instance/c/progress").next, 2);
+    EXPECT_NO_THROW({
+      while (!run.done()) run.step();
+    });
+    if (loops) {
+      EXPECT_EQ(row<Progress>(run, "instance/c/progress").next, 0) << "it begins the new path";
+    } else {
+      EXPECT_EQ(row<Command>(run, "robot/r/command").v, 0);
+    }
+  }
+}
+
 }  // namespace
