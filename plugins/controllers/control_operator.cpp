@@ -44,7 +44,7 @@ std::vector<Order> read_orders(const Setup& setup) {
 }
 
 struct ControlOperator {
-  static constexpr auto id = "control.operator/1";
+  static constexpr auto id = "control.operator/2";
   static constexpr auto summary = "gives a list of orders by a station's radio";
   static constexpr auto manual =
       "`orders` is an XML file in the world's folder: <order at=\"5\" to=\"scout\" text=\"go\" again=\"2\"\n"
@@ -56,16 +56,18 @@ struct ControlOperator {
                                      text("orders", "", "an XML file").required()};
 
   struct State {
-    static constexpr const char* columns = "given answered unanswered progress{}";
-    double given, answered, unanswered, progress;  // messages sent; orders that were answered, that were given up
+    static constexpr const char* columns = "given answered unanswered mark progress{}";
+    double given, answered, unanswered;  // messages sent; orders that were answered, that were given up
+    double mark, progress;               // of the file; how far each of its orders is
   };
-  static constexpr unsigned progress_column = 3;
+  static constexpr unsigned progress_column = 4;
   struct Progress {
     double sent = 0, last = 0, done = 0;  // times it was said, when last; 1 when there is no more to do
   };
 
   explicit ControlOperator(Setup& s)
       : orders(read_orders(s)),
+        mark(mark_of(read_file(s, "orders"))),
         radio(s.param("radio")),
         inbox(s.read<Incoming>("inbox/{radio}/message")),
         outbox(s.write<Outgoing>("outbox/{radio}/message")),
@@ -77,8 +79,11 @@ struct ControlOperator {
   void step(const Step& k) const {
     State now = *k.last(state);
     std::vector<Progress> all(orders.size());
-    if (const auto bytes = k.last_bytes(state, 0, progress_column); bytes.size() == all.size() * sizeof(Progress))
+    const auto bytes = k.last_bytes(state, 0, progress_column);
+    // Progress in other orders, before a swap, means nothing in these.
+    if (now.mark == mark && bytes.size() == all.size() * sizeof(Progress))
       std::memcpy(all.data(), bytes.data(), bytes.size());
+    now.mark = mark;
     listen(k, now, all);
     std::size_t sent = 0;
     for (std::size_t i = 0; i < orders.size(); ++i) {
@@ -122,6 +127,7 @@ struct ControlOperator {
   }
 
   std::vector<Order> orders;
+  double mark;  // of the file
   double radio;
   In<Incoming> inbox;
   Out<Outgoing> outbox;

@@ -69,6 +69,25 @@ inline XmlElement read_file(const Setup& setup, const char* parameter) {
   }
 }
 
+// FNV-1a over names, values and nesting.
+inline void mix(const XmlElement& element, uint64_t& hash) {
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    hash = (hash ^ 0x1f) * 0x100000001b3u;
+  };
+  add(element.name);
+  for (const auto& attribute : element.attributes) add(attribute.name), add(attribute.value);
+  for (const auto& child : element.children) mix(child, hash);
+  add("/");
+}
+
+// Differs from that of any file of another content.
+inline double mark_of(const XmlElement& root) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  mix(root, hash);
+  return static_cast<double>(hash >> 11);  // what a double holds
+}
+
 // The row of a radio, by its name at `place`.
 inline double radio_row(const Setup& setup, const std::string& name, const Place& place) {
   const muster_host* host = setup.host();

@@ -19,18 +19,6 @@ std::string without_commas(std::string text) {
 constexpr double far = 1e6, long_time = 1e9;
 const std::vector<std::string> steps = {"go_to", "wait", "say", "follow", "keep_link", "repeat", "patrol", "choose"};
 
-// Over names, values and nesting: two files of one content are one mission.
-void mix(const XmlElement& element, uint64_t& hash) {
-  const auto add = [&](const std::string& text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;  // FNV-1a
-    hash = (hash ^ 0x1f) * 0x100000001b3u;
-  };
-  add(element.name);
-  for (const auto& attribute : element.attributes) add(attribute.name), add(attribute.value);
-  for (const auto& child : element.children) mix(child, hash);
-  add("/");
-}
-
 class Compiler {
  public:
   Compiler(const FindRadio& find, double own, bool flies) : find_(find), own_(own), flies_(flies) {}
@@ -295,9 +283,7 @@ class Compiler {
 
 Program compile(const XmlElement& root, const FindRadio& find, double own, bool flies) {
   Program program = Compiler(find, own, flies).compile(root);
-  uint64_t hash = 0xcbf29ce484222325u;
-  mix(root, hash);
-  program.mark = static_cast<double>(hash >> 11);  // what a double holds
+  program.mark = mark_of(root);
   return program;
 }
 

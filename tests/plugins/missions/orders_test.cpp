@@ -46,6 +46,21 @@ TEST_F(Orders, WhatIsLostIsGivenAgainUntilItIsHeard) {
   EXPECT_EQ(given(sim).given, 7);
 }
 
+// As many orders as before: those that were done in the first file counted as done in the second.
+TEST_F(Orders, ThoseOfAnotherFileAreStillToBeGiven) {
+  folder.write("second.xml", "<orders><order at='5' to='scout' text='home'/></orders>");
+  Simulation sim = ordered("<order at='1' to='scout' text='go'/>", "<wait message='go'/>\n<wait message='home'/>",
+                           scout +
+                               "<at t='4'><swap instance='operator' plugin='control.operator' radio='base' "
+                               "orders='second.xml'/></at>");
+  run_to(sim, 4.5);
+  EXPECT_EQ(given(sim).given, 1);
+  EXPECT_EQ(line(sim), 3);
+  run_to(sim, 6);
+  EXPECT_EQ(given(sim).given, 2);
+  EXPECT_EQ(line(sim), 1) << "the end";
+}
+
 TEST_F(Orders, ItGivesUp) {
   Simulation sim = ordered("<order at='1' to='scout' text='dance' again='1' tries='3'/>", "<wait message='go'/>");
   run_to(sim, 10);
