@@ -43,6 +43,7 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   settings_ = settings;
   channel_ = &channel;
   radios_.resize(channel.radios);
+  choose_master();
   const auto& frames = air_.frames();
   const medium::Band band = frames.empty() ? medium::Band{} : band_of(channel_at(frames.back().begin));
   air_.enter(channel, {settings.noise, found_above, 0, found_above, band});
@@ -63,9 +64,19 @@ const Report& Medium::run(Time since, Time until, const Channel& channel, const 
   return post_.close();
 }
 
-void Medium::look_who_is_there() {
+void Medium::choose_master() {
   is_there_ = channel_->alive;
   for (const medium::Jammer& jammer : channel_->jammers) is_there_[jammer.radio] = false;
+  std::size_t& master = settings_.master;
+  if (master == Settings::first_there) {
+    const auto first = std::find(is_there_.begin(), is_there_.end(), true);
+    master = first == is_there_.end() ? 0 : static_cast<std::size_t>(first - is_there_.begin());
+  } else if (channel_->alive[master] && !is_there_[master]) {
+    throw JammingMaster("jams, so that it is no radio of the piconet");
+  }
+}
+
+void Medium::look_who_is_there() {
   const auto there = std::count(is_there_.begin(), is_there_.end(), true);
   if (there > 1 + most_slaves)
     throw TooManyRadios(std::to_string(there) + " radios; a piconet has one master and at most " +

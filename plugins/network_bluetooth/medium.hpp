@@ -20,7 +20,8 @@ using medium::Heard;
 using medium::Report;
 
 struct Settings {
-  std::size_t master = 0;
+  static constexpr std::size_t first_there = static_cast<std::size_t>(-1);
+  std::size_t master = 0;          // or first_there: the first radio that is there and does not jam
   std::size_t largest = dh5;       // packets
   Time poll_interval = 40 * slot;  // T_poll: longest interval between packets to a slave
   Time flush = 80 * slot;  // time after its first chance to be sent at which an unacknowledged packet is dropped
@@ -29,6 +30,10 @@ struct Settings {
 };
 
 struct TooManyRadios : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct JammingMaster : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -47,7 +52,8 @@ class Medium {
   }
 
   // Runs from `since` to `until`. The report is valid until the next run. All radios except jammers belong to the
-  // piconet; throws TooManyRadios if these are more than a master and seven slaves.
+  // piconet; throws TooManyRadios if these are more than a master and seven slaves, and
+  // JammingMaster.
   const Report& run(Time since, Time until, const Channel& channel, const Settings& settings);
 
   // Channel of the slot that begins at this time, 0 to 78.
@@ -72,6 +78,7 @@ class Medium {
     std::uint64_t answers_to = medium::nothing;
   };
 
+  void choose_master();
   void look_who_is_there();
   bool is_linked(std::size_t one, std::size_t other) const;
   void handle(const medium::Event& event);

@@ -8,7 +8,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkBluetooth {
-  static constexpr auto id = "network.bluetooth/2";
+  static constexpr auto id = "network.bluetooth/3";
   static constexpr auto summary = "Bluetooth at its basic rate: a master and up to seven slaves, polled in slots";
   static constexpr auto manual =
       R"(Messages as packets of Bluetooth (Core Specification 2.0, basic rate): slots of 625 us, 79 channels of 1 MHz.
@@ -29,7 +29,7 @@ gone + those still under way.)";
   static constexpr auto phase = MUSTER_NETWORK;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
-      reference("master", "radio", "the master; by default the first radio"),
+      reference("master", "radio", "the master; by default the first radio that is there and does not jam"),
       choice("packets", "DH5|DH3|DH1", "longest packets that are used, of 339, 183 and 27 bytes"),
       integer("poll_interval", 40, 2, 4096, "slots: each slave is addressed at least so often if time allows"),
       real("flush_timeout", 0.05, 0, 41, "s", "a packet not acknowledged by then ends its message; 0: never"),
@@ -55,7 +55,7 @@ gone + those still under way.)";
 
   void step(const Step& k) {
     bluetooth::Settings settings;
-    settings.master = k[master] < 0 ? 0 : static_cast<std::size_t>(k[master]);
+    settings.master = k[master] < 0 ? bluetooth::Settings::first_there : static_cast<std::size_t>(k[master]);
     settings.largest = bluetooth::dh5 - static_cast<std::size_t>(k[largest]);
     settings.poll_interval = std::llround(k[poll_interval]) * bluetooth::slot;
     settings.flush = std::llround(1e9 * k[flush_timeout]);
@@ -63,15 +63,22 @@ gone + those still under way.)";
     settings.queue = static_cast<std::size_t>(k[queue]);
     try {
       board.step(k, medium, settings, {bluetooth::band_of(0).low, bluetooth::band_of(78).high});
+    } catch (const bluetooth::JammingMaster& e) {
+      throw BadInput("attribute \"master\": \"" + std::string(k.name("radio", settings.master)) + "\" " + e.what() +
+                     "; expected one that does not jam, of " + living(k));
     } catch (const bluetooth::TooManyRadios& e) {
-      std::string there;
-      for (uint32_t row = 0; row < k.rows("radio"); ++row) {
-        if (k.alive("radio", row)) there += (there.empty() ? "" : ", ") + std::string(k.name("radio", row));
-      }
       throw BadInput(e.what() + std::string("; expected ") + std::to_string(1 + bluetooth::most_slaves) +
                      " radios or fewer, or another network in its place, such as <network.wifi/>; the radios are " +
-                     there);
+                     living(k));
     }
+  }
+
+  static std::string living(const Step& k) {
+    std::string there;
+    for (uint32_t row = 0; row < k.rows("radio"); ++row) {
+      if (k.alive("radio", row)) there += (there.empty() ? "" : ", ") + std::string(k.name("radio", row));
+    }
+    return there;
   }
 
   Value master, largest, poll_interval, flush_timeout, noise, queue;

@@ -52,5 +52,31 @@ TEST(Piconet, AJammersRadioIsNotOfIt) {
   EXPECT_GE(traffic.at(0, 1), 7 * 19);
 }
 
+// The first radio was the master also where it jammed or had left, and nothing was delivered.
+TEST(Piconet, TheMasterIsTheFirstRadioThatIsThereAndDoesNotJam) {
+  const Folder folder;
+  const std::string three = stations(3) + channel + "<network.bluetooth/><test.sender from=\"b\" to=\"c\"/>";
+  Simulation jammed = world_of(folder, three + "<radio.jammer radio=\"a\" excess=\"-100\"/>");
+  run(jammed, 20);
+  EXPECT_EQ(jammed.table("radio/b/traffic").at(0, 0), 20);
+  EXPECT_GE(jammed.table("radio/b/traffic").at(0, 1), 19);
+  Simulation left = world_of(folder, three + "<at t=\"1\"><leave station=\"a\"/></at>");
+  run(left, 30);
+  EXPECT_GE(left.table("radio/b/traffic").at(0, 1), 18);
+}
+
+TEST(Piconet, AMasterThatJamsIsRefused) {
+  const Folder folder;
+  Simulation sim = world_of(folder, stations(2) + channel + talk + "<network.bluetooth master=\"b\"/>" +
+                                        "<radio.jammer radio=\"b\" excess=\"-100\"/>");
+  try {
+    run(sim, 2);
+    FAIL() << "not refused";
+  } catch (const Error& refused) {
+    EXPECT_THAT(refused.what(), testing::HasSubstr("attribute \"master\": \"b\" jams, so that it is no radio of the "
+                                                   "piconet; expected one that does not jam, of a, b"));
+  }
+}
+
 }  // namespace
 }  // namespace muster
