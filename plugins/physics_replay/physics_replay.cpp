@@ -1,6 +1,7 @@
 // physics.replay: measured poses drive the bodies, so that everything else runs on the real course.
 #include <cstdio>
 #include <muster/plugin.hpp>
+#include <optional>
 
 #include "description/world_robots.hpp"
 #include "plugins/table_times.hpp"
@@ -18,7 +19,7 @@ struct Measured {
 };
 
 struct PhysicsReplay {
-  static constexpr auto id = "physics.replay/1";
+  static constexpr auto id = "physics.replay/2";
   static constexpr auto summary = "measured poses drive the bodies, interpolated";
   static constexpr auto manual =
       "The file's columns are t[s],robot,x[m],y[m], z[m] (else the height stays), and yaw[rad] or qw,qx,qy,qz; others "
@@ -45,7 +46,9 @@ struct PhysicsReplay {
         pose(s.write<Pose>("robot/*/pose")),
         twist(s.write<Twist>("robot/*/twist")),
         wheels(s.write<Wheels>("robot/*/wheels")),
-        model(s.write<Model>("robot/*/body")) {}
+        model(s.write<Model>("robot/*/body")) {
+    if (robots.any_mecanum()) rear_wheels = s.write<Wheels>("robot/*/rear_wheels");
+  }
 
   void read(const Step& k) {
     const auto rows = k[measured];
@@ -130,7 +133,8 @@ struct PhysicsReplay {
       k[model][i].model = WorldRobots::model_of(k.last(model)[i].model, i);
       k[pose][i] = k.last(pose)[i];
       k[twist][i] = {0, 0, 0, 0, 0, 0};
-      k[wheels][i] = {k.last(wheels)[i].left, k.last(wheels)[i].right, 0, 0};
+      turn(k, wheels, i, 0, 0);
+      if (rear_wheels) turn(k, *rear_wheels, i, 0, 0);
       if (i < courses.size() && !courses[i].track.empty() && k.alive("robot", i)) carry(k, i);
     }
   }
@@ -145,9 +149,20 @@ struct PhysicsReplay {
     k[twist][i] = {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
     const auto* drive = robots.drive_of(k[model][i].model);
     if (!drive) return;
-    const double forward = v.dot(before.turn.slerp(0.5, now.turn) * Eigen::Vector3d::UnitX());
-    const double left = drive->left_rate(forward, w.z()), right = drive->right_rate(forward, w.z());
-    k[wheels][i] = {k.last(wheels)[i].left + left * k.dt(), k.last(wheels)[i].right + right * k.dt(), left, right};
+    const Eigen::Quaterniond heading = before.turn.slerp(0.5, now.turn);
+    const double forward = v.dot(heading * Eigen::Vector3d::UnitX());
+    if (drive->mecanum && rear_wheels) {
+      const auto rates = drive->mecanum->rates({forward, v.dot(heading * Eigen::Vector3d::UnitY()), w.z()});
+      turn(k, wheels, i, rates[0], rates[1]);
+      turn(k, *rear_wheels, i, rates[2], rates[3]);
+    } else {
+      turn(k, wheels, i, drive->left_rate(forward, w.z()), drive->right_rate(forward, w.z()));
+    }
+  }
+
+  static void turn(const Step& k, const Out<Wheels>& pair, std::size_t i, double left, double right) {
+    const Wheels& last = k.last(pair)[i];
+    k[pair][i] = {last.left + left * k.dt(), last.right + right * k.dt(), left, right};
   }
 
   WorldRobots robots;
@@ -157,7 +172,8 @@ struct PhysicsReplay {
   Out<Twist> twist;
   Out<Wheels> wheels;
   Out<Model> model;
-  std::vector<Course> courses;  // from the file alone, one for each robot
+  std::optional<Out<Wheels>> rear_wheels;  // if any robot has rollers
+  std::vector<Course> courses;             // from the file alone, one for each robot
   bool is_read = false;
 };
 

@@ -51,6 +51,25 @@ TEST(Replay, QuaternionsAreRead) {
   EXPECT_NEAR(row<Pose>(run, "robot/a/pose").qx, 0.8, 1e-12);
 }
 
+// Rear wheels stood, front wheels knew no way sideways.
+TEST(Replay, AllFourWheelsOfAMecanumDriveTurn) {
+  Folder folder;
+  folder.write("course.csv", "t[s],robot,x[m],y[m],yaw[rad]\n0,m,0,0,0\n2,m,0,1,0\n");
+  Simulation run =
+      world_of(folder, R"(<robot name="m" model="youbot" at="0 0 0"/><robots.odometry/>)" + backend, 1, "0.1");
+  run_to(run, 20);
+  const auto front = row<Wheels>(run, "robot/m/wheels"), rear = row<Wheels>(run, "robot/m/rear_wheels");
+  const double turned = 1 / 0.0475;  // [rad] by a metre
+  EXPECT_NEAR(front.left, -turned, 1e-6);
+  EXPECT_NEAR(front.right, turned, 1e-6);
+  EXPECT_NEAR(rear.left, turned, 1e-6);
+  EXPECT_NEAR(rear.right, -turned, 1e-6);
+  run_to(run, 22);
+  EXPECT_EQ(row<Wheels>(run, "robot/m/rear_wheels").left_rate, 0);
+  EXPECT_NEAR(row<Odometry>(run, "robot/m/odometry").x, 0, 1e-3);
+  EXPECT_NEAR(row<Odometry>(run, "robot/m/odometry").y, 1, 1e-3);
+}
+
 TEST(Replay, WheelsTurnAsTheMotionSays) {
   Folder folder;
   Simulation run = replayed(folder, "t[s],robot,x[m],y[m],yaw[rad]\n0,a,0,0,0\n2,a,1,0,0\n");
