@@ -163,7 +163,7 @@ void tell_gap(const Replay& replay, const Filled& filled, const Now& now, std::s
 double fill(const Replay& replay, const Filled& filled, const Now& now, const muster_in* in, const muster_out* out) {
   const auto& [port, track] = filled;
   const std::size_t samples = track.until(now.time), width = port.columns.size();
-  const std::size_t first = port.is_queue ? (now.is_first ? 0 : track.until(now.before)) : samples - (samples > 0);
+  const std::size_t first = port.is_queue ? track.until(now.before) : samples - (samples > 0);
   const std::size_t texts = track.times.empty() ? 0 : track.bytes.size() / track.times.size();
   tell_gap(replay, filled, now, samples);
   if (samples == 0 && !port.is_queue) {
@@ -245,7 +245,7 @@ MUSTER_DECLARE_ABI
 extern "C" int muster_register(uint32_t abi, void* registry, muster_add add) {
   static const muster_plugin plugin{sizeof(muster_plugin),
                                     MUSTER_SENSE,
-                                    "device.replay/1",
+                                    "device.replay/2",
                                     "what a robot has sensed, from a log, in the place of the robot",
                                     manual,
                                     params,

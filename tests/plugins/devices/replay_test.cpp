@@ -203,5 +203,29 @@ TEST(DeviceReplay, WhatIsWrongIsToldWithThePlaceOfTheElement) {
   EXPECT_THAT(refused("file=\"cut.mcap\""), HasSubstr("cut.mcap"));
 }
 
+// What had been scanned before `begin` came in the first tick, all at once.
+TEST(DeviceReplay, ScansBeforeItsBeginningAreLeftOut) {
+  const Folder folder;
+  const std::string inside =
+      robot("scarab") + "<control.steady robot=\"r\" v=\"0.1\"/><control.keep_clear robot=\"r\" clearance=\"0.4\"/>";
+  Simulation simulated =
+      start_of(folder, "simulated.xml",
+               world_text(inside + "<physics.planar/>" + records + "<record table=\"scan/*/message\"/>", "6"));
+  log_run(simulated, folder / "run.mcap");
+  Simulation run = start_of(folder, "replayed.xml",
+                            world_text(inside + "<device.replay robot=\"r\" file=\"run.mcap\" begin=\"5\" reads=\"\" "
+                                                "writes=\"robot/{robot}/odometry scan/{robot}/message\"/>",
+                                       "1"));
+  const auto scans = [&] { return run.table("scan/*/message").rows(); };
+  std::size_t most = scans(), seen = 0;
+  while (!run.done()) {
+    run.step();
+    most = std::max(most, scans());
+    seen += scans();
+  }
+  EXPECT_LE(most, 5u) << "those of the ticks that a queue keeps";
+  EXPECT_GT(seen, 3u);
+}
+
 }  // namespace
 }  // namespace muster::test
