@@ -9,7 +9,7 @@ namespace {
 using namespace muster;
 
 struct RadioBodies {
-  static constexpr auto id = "radio.bodies/1";
+  static constexpr auto id = "radio.bodies/2";
   static constexpr auto summary = "robots that stand between two radios cost a loss each";
   static constexpr auto manual =
       R"(Adds -`loss` to the level of a link for each living robot whose upright cylinder, `radius` about its origin and
@@ -54,12 +54,18 @@ radio.)";
   bool is_between(const Step& k, const Pose& one, const Pose& two, const Pose& body) const {
     const bool in_order = std::tie(one.x, one.y, one.z) < std::tie(two.x, two.y, two.z);
     const Pose &a = in_order ? one : two, &b = in_order ? two : one;
-    const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
-    if (square <= 0) return false;
-    // The link's nearest point in plan.
-    const double at = std::clamp(((body.x - a.x) * x + (body.y - a.y) * y) / square, 0.0, 1.0);
-    const double z = a.z + at * (b.z - a.z) - body.z;
-    return std::hypot(a.x + at * x - body.x, a.y + at * y - body.y) < k[radius] && z >= 0 && z < k[height];
+    const double x = b.x - a.x, y = b.y - a.y, z = b.z - a.z, square = x * x + y * y;
+    // Shares of the way from a to b: where it is nearest in plan, and from where to where it is in the circle.
+    const double at = square > 0 ? ((body.x - a.x) * x + (body.y - a.y) * y) / square : 0;
+    const double miss = std::hypot(a.x + at * x - body.x, a.y + at * y - body.y);
+    if (miss >= k[radius]) return false;
+    const double half = square > 0 ? std::sqrt((k[radius] * k[radius] - miss * miss) / square) : 1;
+    double from = std::max(0.0, at - half), to = std::min(1.0, at + half);
+    const double above = a.z - body.z;
+    if (z == 0) return from < to && above >= 0 && above < k[height];
+    const double foot = -above / z, head = (k[height] - above) / z;
+    from = std::max(from, std::min(foot, head)), to = std::min(to, std::max(foot, head));
+    return from < to;
   }
 
   Value loss, radius, height;

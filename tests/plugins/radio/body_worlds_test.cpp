@@ -38,6 +38,21 @@ TEST(Bodies, AreOverlookedAndLookedUnder) {
   }
 }
 
+// Only the height at the point nearest in plan counted, and upright links met nobody. A robot is 0.2 m to 0.7 m high.
+TEST(Bodies, BlockSteepAndUprightLinks) {
+  const Folder folder;
+  const auto count = [&](const std::string& a, const std::string& b) {
+    Simulation sim = world_of(folder, station("a", a) + station("b", b) + robots + channel);
+    run(sim, 5);
+    return by_pair(sim, "link/*/level@bodies").at({"a", "b"}) / -7;
+  };
+  EXPECT_EQ(count("2.65 0 0.3", "2.35 0 2"), 1) << "1.15 m high in its middle";
+  EXPECT_EQ(count("2.65 0 0.8", "2.35 0 2"), 0) << "above it";
+  EXPECT_EQ(count("2.5 0.1 0.3", "2.5 0.1 2"), 1) << "upright";
+  EXPECT_EQ(count("2.5 0.1 0.8", "2.5 0.1 2"), 0) << "upright, above it";
+  EXPECT_EQ(count("2.5 0.3 0.3", "2.5 0.3 2"), 0) << "upright, beside it";
+}
+
 TEST(Bodies, DoNotStandInTheirOwnWayNorBeyondAnEnd) {
   const Folder folder;
   Simulation sim = world_of(folder, station("a", "2.5 -5 0.4") + station("near", "2.5 0.5 0.4") + robots + channel);
