@@ -13,7 +13,7 @@ namespace {
 using namespace muster;
 
 struct ControlConnectivity {
-  static constexpr auto id = "control.connectivity/1";
+  static constexpr auto id = "control.connectivity/2";
   static constexpr auto summary = "moves along a roadmap as fast as the links measured on messages allow";
   static constexpr auto manual =
       "Speed along the roadmap = speed x switching((parent - threshold) / width), where `parent` is the smoothed\n"
@@ -118,7 +118,7 @@ struct ControlConnectivity {
     if (is_null(now.parent)) return 0;
     const bool is_lost = k.time() - now.parent_heard > k[lost];
     const double excess = is_lost ? -1 : (now.parent - k[threshold]) / k[width];
-    const double on = is_lost ? -1 : turning(k, switched(switching, excess), excess);
+    const double on = turning(k, is_lost ? -1 : switched(switching, excess), excess);
     if (leads || on < 0) return on;
     if (is_null(now.child)) return 0;
     return on * (k.time() - now.child_heard > k[lost] ? 1 : wanted(now.child - k[threshold], k[margin]));
