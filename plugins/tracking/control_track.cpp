@@ -30,9 +30,9 @@ struct ControlTrack {
       "disc about the base whose radius follows from the mean rssi of the base's messages, by the path-loss exponent\n"
       "`n`, if received power is exponential about its mean (Rayleigh fading): P = exp(-sensitivity / mean power).\n"
       "A robot that has heard nothing for `lost` comes back; without a sighting, to the base itself. A goal outside\n"
-      "of a bound or in an obstacle is moved to its edge. It knows its odometry, its sighting and its inbox; the other "
-      "robots are no\n"
-      "obstacles to it.\n"
+      "of a bound or in an obstacle is moved to its edge. It knows its odometry, its sighting and its inbox; the "
+      "other\n"
+      "robots are no obstacles to it.\n"
       "A. Ghaffarkhah, Y. Mostofi: Communication-aware target tracking using navigation functions - centralized case,\n"
       "ROBOCOMM 2009.";
   static constexpr auto phase = MUSTER_CONTROL;
@@ -60,9 +60,9 @@ struct ControlTrack {
       real("turn_speed", 1, 0, 10, "rad/s", "largest turn rate")};
 
   struct State {
-    static constexpr const char* columns = "level[dBm]? heard[s] told[s] reach[m]? goal_x[m]? goal_y[m]?";
+    static constexpr const char* columns = "level[dBm]? heard[s] told[s]? reach[m]? goal_x[m]? goal_y[m]?";
     double level, heard, told;     // smoothed rssi of the base, null before the first message; when it came;
-                                   // time of the last sighting that was told
+                                   // time of the last sighting that was told, or null
     double reach, goal_x, goal_y;  // radius of the bound of reception, null where there is none; where it heads for
   };
 
@@ -137,7 +137,7 @@ struct ControlTrack {
       if (k[aware] != 0 && is_lost) *k[command] = steer(k, now, here, from_base, {k[base_x], k[base_y]});
     } else {
       *k[command] = steer(k, now, here, from_base, beside(k, seen));
-      if (seen.t > now.told) tell(k, {seen.x, seen.y, seen.deviation});
+      if (is_null(now.told) || seen.t > now.told) tell(k, {seen.x, seen.y, seen.deviation});
       now.told = seen.t;
     }
     *k[state] = now;

@@ -34,5 +34,15 @@ TEST(Track, ARobotWithoutBaseAndTargetComesBack) {
   EXPECT_NEAR(x_at(unaware, 25), 10, 0.01);
 }
 
+// The first was not later than time 0.
+TEST(Track, TheFirstSightingIsTold) {
+  const Folder folder;
+  Simulation run = followed(folder, "period='0.5'", "");
+  x_at(run, 0.4);
+  EXPECT_EQ(row<Traffic>(run, "radio/scout/traffic").asked, 1);
+  x_at(run, 1.4);
+  EXPECT_EQ(row<Traffic>(run, "radio/scout/traffic").asked, 3);
+}
+
 }  // namespace
 }  // namespace muster::test
