@@ -11,13 +11,13 @@ using namespace muster;
 using tracking::Sighting;
 
 struct SensorsSighting {
-  static constexpr auto id = "sensors.sighting/1";
+  static constexpr auto id = "sensors.sighting/2";
   static constexpr auto summary = "the place of a target as each robot sees it, worse with distance";
   static constexpr auto manual =
       "Every `period` each robot but the target sees where the target is, with Gaussian noise of its own on each\n"
       "coordinate of standard deviation noise + growth x distance. robot/*/sighting keeps the last one, with its time\n"
-      "and its deviation; it is null before the first, and where the target is farther than `range`. What stands\n"
-      "between the two is not looked at.";
+      "and its deviation; it is null before the first, and where the target is farther than `range` or has\n"
+      "left. What stands between the two is not looked at.";
   static constexpr auto phase = MUSTER_SENSE;
   static constexpr Param params[] = {reference("target", "robot", "the robot that is looked for").required(),
                                      real("period", 0.5, 1e-3, 1000, "s", "of sightings"),
@@ -38,6 +38,7 @@ struct SensorsSighting {
   void step(const Step& k) const {
     const bool due = is_due(k.time(), k.dt(), k[period]);
     const Pose& there = k[pose][target];
+    const bool is_there = k.alive("robot", target);
     for (std::size_t i = 0; i < k[sighting].size(); ++i) {
       k[sighting][i] = k.last(sighting)[i];
       if (!due || i == target) continue;
@@ -46,8 +47,9 @@ struct SensorsSighting {
       const auto off = [&](unsigned axis) {
         return k.expected() || deviation == 0 ? 0 : deviation * stream.of(k.key("robot", i)).normal(k.tick(), axis);
       };
-      k[sighting][i] = distance > k[range] ? Sighting{k.time(), null(), null(), null()}
-                                           : Sighting{k.time(), there.x + off(0), there.y + off(1), deviation};
+      k[sighting][i] = !is_there || distance > k[range]
+                           ? Sighting{k.time(), null(), null(), null()}
+                           : Sighting{k.time(), there.x + off(0), there.y + off(1), deviation};
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "plugins/tracking/sighting.hpp"
 #include "tests/plugins/robots/robot_world.hpp"
 
 namespace muster::test {
@@ -42,6 +43,17 @@ TEST(Track, TheFirstSightingIsTold) {
   EXPECT_EQ(row<Traffic>(run, "radio/scout/traffic").asked, 1);
   x_at(run, 1.4);
   EXPECT_EQ(row<Traffic>(run, "radio/scout/traffic").asked, 3);
+}
+
+// It was seen for ever where it had been last.
+TEST(Track, ATargetThatHasLeftIsNotSeen) {
+  const Folder folder;
+  Simulation run = followed(folder, "period='0.5'", "", "<at t='2'><leave robot='target'/></at>");
+  const auto seen = [&] { return row<tracking::Sighting>(run, "robot/scout/sighting").x; };
+  x_at(run, 1.8);
+  EXPECT_NEAR(seen(), 25, 5) << "with noise";
+  x_at(run, 3);
+  EXPECT_TRUE(std::isnan(seen()));
 }
 
 }  // namespace
