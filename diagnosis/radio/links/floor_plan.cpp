@@ -26,14 +26,18 @@ plotting::FloorPlan plan_of(const Simulation& run) {
   const auto walls = rows_of<Wall>(run, "wall/*/shape");
   for (const Wall& w : walls)
     plan.walls.push_back({{w.x0, w.y0}, {w.x1, w.y1}, w.thickness, materials.at(at(w.material))});
+  // Where no plugin reads walls, their doors are not drawn either; where none reads how doors stand, they are shut.
   const auto states = rows_of<DoorState>(run, "door/*/state");
-  for (const Door& d : rows_of<Door>(run, "door/*/shape")) {
-    const Wall& w = walls.at(at(d.wall));
+  const auto doors = rows_of<Door>(run, "door/*/shape");
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    const Door& d = doors[i];
+    if (at(d.wall) >= walls.size()) continue;
+    const Wall& w = walls[at(d.wall)];
     const double length = std::hypot(w.x1 - w.x0, w.y1 - w.y0);
     const auto along = [&](double s) {
       return plotting::Point{w.x0 + s / length * (w.x1 - w.x0), w.y0 + s / length * (w.y1 - w.y0)};
     };
-    const bool open = states.at(plan.doors.size()).open != 0;
+    const bool open = i < states.size() && states[i].open != 0;
     plan.doors.push_back({along(d.at), along(d.at + d.width), open, w.thickness});
   }
   const auto radios = names_of(run, "radio");

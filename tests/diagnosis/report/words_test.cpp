@@ -225,8 +225,8 @@ TEST(Text, WhatWasCheckedIsFineDoubtfulOrAskedByATestOfItsOwn) {
 TEST(Text, ALawHasNoGainToMeasure) {
   Diagnosis d = with(wall(inference::Status::named, {}));
   d.causes[0].covariates = {"reading"};
-  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "changes the scatter of readings"));
-  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "changes the scatter of readings"));
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "judged by how readings are distributed"));
+  EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}), "judged by how readings are distributed"));
 }
 
 TEST(Text, WhatTheReadingsDoNotIdentifyHasNoInterval) {
