@@ -60,8 +60,7 @@ TEST(Wander, BoundsInTheWrongOrderAndARampBeyondThePeriodAreRefused) {
     }
     return "";
   };
-  EXPECT_THAT(refused("slowest=\"0.7\""),
-              testing::HasSubstr("attribute \"slowest\": is above \"fastest\"; expected at most that"));
+  EXPECT_THAT(refused("slowest=\"0.7\""), testing::HasSubstr("slowest=\"0.7\" is above fastest=\"0.6\""));
   EXPECT_THAT(refused("period=\"0.2\""),
               testing::HasSubstr("attribute \"ramp\": is above \"period\"; expected at most that"));
   EXPECT_EQ(refused("slowest=\"0.6\" period=\"0.25\""), "");
