@@ -175,7 +175,7 @@ async function counted(name) {
 const run_log = (...words) => JSON.parse(execFileSync(muster, ['log', ...words, '--json'], {encoding: 'utf8'}));
 for (const share of [0.2, 0.5, 0.9, 0.999]) {
   writeFileSync(join(folder, 'torn.mcap.part'), bytes.subarray(0, Math.floor(bytes.length * share)));
-  const done = run_log('recover', join(folder, 'torn.mcap.part'));
+  const done = run_log('recover', join(folder, 'torn.mcap.part'), '--out', join(folder, 'torn.mcap'));
   const {read} = await counted('torn.mcap');
   expect_equal(read, BigInt(done.messages), `messages recovered of ${share} of the file`);
   expect(done.damages.length === 1 && read > 0n && (share < 0.99 ? read < total : read === total), `${read} of ${total} messages recovered of ${share} of the file`);

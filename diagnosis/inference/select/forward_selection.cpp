@@ -71,9 +71,9 @@ Index numbers_of(const Candidate& c) { return c.design.width + (c.refinement.ste
 // True if nearly all rows recur at a few sites.
 bool stands(const ModelState& state) { return state.field().recurring().share() >= thresholds::standing_share; }
 
-// Levels that a network has to fit: one a site, and, where the columns differ between directions, one more of each link
-// whose directions were measured together (rows of half differences, which share no field). None where the columns vary
-// within a site.
+// Levels that a network has to fit: one a site, and, where the columns differ between a site's streams, one more of
+// each site whose streams were measured together (rows of half differences, which share no field). None where the
+// columns vary within a site.
 std::optional<Index> levels_of(const ModelState& state, const Eigen::MatrixXd& columns) {
   const noise::Sites& sites = state.field().sites();
   const double small = 1e-6 * columns.cwiseAbs().maxCoeff();

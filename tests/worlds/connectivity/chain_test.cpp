@@ -76,11 +76,12 @@ TEST(Chain, TheShareOfTimeBelow) {
 // A silent link was not below, and its share fell.
 TEST(Chain, ASilentLinkIsBelow) {
   Folder folder;
-  Simulation run = world_of(folder,
-                            "<station name='a' at='0 0 1'/><station name='b' at='1 0 1'/><test.slope name='hill'/>"
-                            "<network.ideal/><observe.chain name='chain' chain='a b'/>"
-                            "<at t='1'><set path='hill/slope' value='100'/></at>",
-                            {}, "dt='0.05' until='4' seed='1'");
+  Simulation run =
+      world_of(folder,
+               "<station name='a' at='0 0 1'/><station name='b' at='1 0 1'/><test.slope name='hill'/>"
+               "<control.beacon radio='a' period='0.1'/><network.ideal/><observe.chain name='chain' chain='a b'/>"
+               "<at t='1'><set path='hill/slope' value='100'/></at>",
+               {}, "dt='0.05' until='4' seed='1'");
   while (!run.done()) run.step();
   const ChainLink link = row<OneLink>(run, "instance/chain/chain").link;
   EXPECT_LT(link.level, -95) << "the receiver's sensitivity";
