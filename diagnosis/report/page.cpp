@@ -248,7 +248,7 @@ std::string page_of(const Diagnosis& d, const Setting& setting, const std::vecto
   if (!d.unexplained.empty()) {
     body += heading("Not explained");
     for (const auto& u : d.unexplained) {
-      std::string text = what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, too_few_blocks) + ".";
+      std::string text = what_is_unexplained(u) + " Gain: " + gain_text(u.held_out, why_no_gain_of_rest(d)) + ".";
       for (const inference::Elsewhere& e : u.elsewhere)
         text += " Of " + e.left_out + " not seen: " + gain_in_words(e.held_out, e.left_out) + ".";
       body += "<div class=\"card\">" + paragraph(text) + "</div>\n";

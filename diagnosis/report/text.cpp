@@ -123,7 +123,7 @@ std::string unexplained(const Diagnosis& d) {
   std::string text = heading("Not explained");
   for (const auto& u : d.unexplained) {
     text += wrapped(what_is_unexplained(u), 2, 2);
-    text += gains(u.held_out, too_few_blocks, u.elsewhere);
+    text += gains(u.held_out, why_no_gain_of_rest(d), u.elsewhere);
   }
   return text;
 }

@@ -75,6 +75,10 @@ std::string why_no_gain(const CauseEstimate& cause) {
   return is_law(cause) ? "none: judged by how readings are distributed, not by their mean" : too_few_blocks;
 }
 
+std::string why_no_gain_of_rest(const Diagnosis& d) {
+  return d.held_out ? "not measured: stronger findings may leave as much behind" : too_few_blocks;
+}
+
 int count_of(const Diagnosis& d, Confidence confidence) {
   return static_cast<int>(std::count_if(d.causes.begin(), d.causes.end(),
                                         [&](const CauseEstimate& c) { return confidence_of(c) == confidence; }));

@@ -24,6 +24,8 @@ constexpr int fewest_blocks = 5;
 std::string why_unconfirmed(const CauseEstimate& cause);
 // Reason why a cause has no gain.
 std::string why_no_gain(const CauseEstimate& cause);
+// Reason why something unexplained has no gain.
+std::string why_no_gain_of_rest(const Diagnosis& diagnosis);
 constexpr const char* too_few_blocks = "not measured: too few blocks of space";
 
 double tenths(double value);                  // to one decimal, never -0.0
@@ -50,10 +52,10 @@ std::string covariate_in_words(const std::string& name);
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives);
 // The same of a named cause, of which a law of scatter has none that were compared with it.
 std::string rivals_in_words(const CauseEstimate& cause);
-// "effect.dual_slope", or with the causes that these readings cannot tell from it:
-// "effect.dual_slope or effect.rssi_compression (the readings do not tell which)".
 // True for an alternative that is named beside the cause: the readings tell neither from the other.
 bool is_in_headline(const inference::Alternative& alternative);
+// "effect.dual_slope", or with the causes that these readings cannot tell from it:
+// "effect.dual_slope or effect.rssi_compression (the readings do not tell which)".
 std::string names_of(const CauseEstimate& cause);
 
 // "Noise: shadowing of 3.10 dB that decorrelates over 2.40 m (exponential correlation), and 1.20 dB a reading."

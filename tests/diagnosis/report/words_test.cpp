@@ -275,6 +275,16 @@ TEST(Steps, AreNamedAfterWhatWasAdded) {
   for (std::size_t k = 0; k < d.stairs.size(); ++k) EXPECT_EQ(name_of_step(d, k), expected[k]) << k;
 }
 
+// What is set aside as a residue of stronger findings is held out of nothing, however many blocks there are.
+TEST(Text, SaysWhyWhatIsUnexplainedHasNoGain) {
+  Diagnosis d;
+  d.unexplained = {{"battery", 30, 60, {}}};
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "not measured: too few blocks"));
+  d.held_out = inference::HeldOutGain{2.5, 2.5, 0, 0, 0, 12};
+  EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "not measured: stronger findings"));
+  EXPECT_FALSE(says(page_of(d, {"hall", "a.csv"}, {}), "too few blocks"));
+}
+
 TEST(Text, NothingFoundIsAdequate) {
   Diagnosis d;
   d.held_out = inference::HeldOutGain{2.5, 2.5, 0, 0, 0, 12};
