@@ -7,6 +7,7 @@
 
 #include "plugins/heading.hpp"
 #include "plugins/own_radio.hpp"
+#include "plugins/periods.hpp"
 #include "plugins/table_rows.hpp"
 #include "plugins/tracking/navigation_function.hpp"
 #include "plugins/tracking/sighting.hpp"
@@ -127,7 +128,7 @@ struct ControlTrack {
     State now = *k.last(state);
     const Vector2 here{k[odometry]->x, k[odometry]->y};
     const double from_base = std::hypot(here.x - k[base_x], here.y - k[base_y]);
-    if (k.tick() == 1) check_discs(k, here);
+    if (is_first_step(k.time(), k.dt())) check_discs(k, here);
     listen(k, now);
     now.reach = k[aware] != 0 ? reach(k, now, from_base) : null();
     const Sighting& seen = *k[sighting];
