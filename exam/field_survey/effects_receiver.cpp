@@ -54,7 +54,7 @@ std::optional<Planted> silent_floor(const Campaign& campaign, Draws& draws) {
 std::optional<Planted> heavy_tails(const Campaign&, Draws&) {
   Planted planted{"outliers"};
   planted.acts = "reading_law";
-  planted.also = {"fading_law", "channel_mixture"};
+  planted.also = {"fading_law"};
   planted.apply = [](Scene&, Scene& truth) { truth.scatter.freedom = 3; };
   return planted;
 }

@@ -116,6 +116,30 @@ bool is_found_by_class(const Verdict& verdict, const Truth::Effect& effect) {
          std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& c) { return same_class(effect, c); });
 }
 
+// The most of the effects from `at` on that are found, each by a cause of its own or by a covariate. `finds`: that a
+// cause names an effect.
+template <class Finds>
+int most_found(const Truth& truth, const Verdict& verdict, const Finds& finds, std::size_t at,
+               std::vector<bool>& taken) {
+  if (at == truth.effects.size()) return 0;
+  const Truth::Effect& effect = truth.effects[at];
+  int most = most_found(truth, verdict, finds, at + 1, taken) +
+             (!effect.in_vocabulary && reported_along_covariate(verdict, effect));
+  for (std::size_t k = 0; k < verdict.named.size(); ++k) {
+    if (taken[k] || !finds(verdict.named[k], effect)) continue;
+    taken[k] = true;
+    most = std::max(most, 1 + most_found(truth, verdict, finds, at + 1, taken));
+    taken[k] = false;
+  }
+  return most;
+}
+
+template <class Finds>
+int most_found(const Truth& truth, const Verdict& verdict, const Finds& finds) {
+  std::vector<bool> taken(verdict.named.size(), false);
+  return most_found(truth, verdict, finds, 0, taken);
+}
+
 // Each effect by itself, whatever else its case has; and whether a strong one is passed over as adequate.
 void add_each_effect(Grades& grades, const Truth& truth, const Verdict& verdict) {
   constexpr double beyond_doubt = 100;  // lambda
@@ -197,11 +221,11 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
     grades.shares[truth.kind + " / " + measure + " / " + bin].count(hit);
     grades.shares[truth.kind + " / " + measure + " / all"].count(hit);
   };
-  int hits = 0, class_hits = 0;
+  const int hits = most_found(truth, verdict, [](const auto& c, const auto& e) { return names(c, e); });
+  const int class_hits =
+      most_found(truth, verdict, [](const auto& c, const auto& e) { return names(c, e) || same_class(e, c); });
   for (const auto& effect : truth.effects) {
     const Verdict::Cause* cause = found(verdict, effect);
-    hits += is_found(verdict, effect);
-    class_hits += is_found_by_class(verdict, effect);
     grades.by_effect[effect.id + " / " + lambda_bin(effect.lambda)].count(is_found(verdict, effect));
     if (!cause) continue;
     const bool right_row = effect.rows.empty() || at_right_row(effect, *cause);
@@ -240,7 +264,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
 
 void add_outside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   const auto& effect = truth.effects.at(0);
-  const bool hit = reported_along_covariate(verdict, effect);
+  const bool hit = is_found(verdict, effect);
   const bool false_name =
       std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& cause) { return !names(cause, effect); });
   for (const std::string& bin : {lambda_bin(effect.lambda), std::string("all")}) {

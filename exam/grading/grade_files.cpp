@@ -174,7 +174,7 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
   Grades grades;
   for (const fs::path& file : files) {
     const Truth truth = truth_in(file);
-    Verdict verdict;  // for a case without a report: silence, which is wrong unless the case is clean
+    Verdict verdict;  // for a case without a report: silence, which is wrong; a clean one without it is not counted
     try {
       const auto report = report_of(reports, truth.name);
       if (!report) throw std::runtime_error("none");
@@ -185,6 +185,7 @@ Grades grade(const fs::path& answers, const fs::path& reports) {
         verdict.named_when_followed = followed->named;
     } catch (const std::runtime_error&) {
       grades.missing.push_back(truth.name);
+      if (truth.effects.empty()) continue;
     }
     add(grades, truth, verdict);
   }

@@ -172,6 +172,23 @@ TEST(Grade, SeveralEffectsStandInTheBinOfTheWeakest) {
   EXPECT_NE(as_table(g).find("| three effects all, each lambda >= 50 | 0/1 = 0 %"), std::string::npos) << as_table(g);
 }
 
+// One offset is right for an offset of that radio, and for an asymmetry of it: not for both at once.
+TEST(Grade, OneNameStandsForOneEffect) {
+  Truth truth = one("tx_offset", 80);
+  truth.kind = "two";
+  truth.effects.push_back({"asymmetry", {"radio/beacon2"}, {}, {}, {}, 90});
+  truth.effects[1].also = {"tx_offset"};
+  Grades g;
+  add(g, truth, said(right_report));
+  EXPECT_EQ(share(g, "two / found / lambda >= 50").hits, 0);
+  EXPECT_EQ(share(g, "two / found, by class / lambda >= 50").hits, 0);
+  EXPECT_EQ(share(g, "two / at least one found / lambda >= 50").hits, 1);
+  add(g, truth,
+      said(R"({"verdict":"extended","causes":[{"id":"tx_offset","label":"radio/beacon2","status":"named"},)"
+           R"({"id":"asymmetry","label":"radio/beacon2","status":"named"}]})"));
+  EXPECT_EQ(share(g, "two / found / lambda >= 50").hits, 1);
+}
+
 TEST(Grade, CleanWorldsAndTheOutside) {
   Grades g;
   const Truth clean{"c", "clean", {}, 0}, outside{"c", "outside", {{"x", {}, {"speed*logd", "speed"}, {}, {}, 70}}, 0};
@@ -188,6 +205,10 @@ TEST(Grade, CleanWorldsAndTheOutside) {
   EXPECT_EQ(share(g, "outside / right covariate / lambda >= 50").hits, 1);
   EXPECT_EQ(share(g, "outside / right covariate / lambda >= 50").of, 2);
   EXPECT_EQ(share(g, "outside / false name / all").hits, 1);
+  Truth mirrored = outside;
+  mirrored.effects[0].also = {"tx_offset"};
+  add(g, mirrored, said(right_report));
+  EXPECT_EQ(share(g, "outside / right covariate / lambda >= 50").hits, 2) << "by a name that is as right";
 }
 
 TEST(Grade, WallsAreComparedAsSegments) {

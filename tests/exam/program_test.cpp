@@ -68,6 +68,10 @@ TEST_F(Program, GradesReportsBesideGoals) {
   EXPECT_NE(graded.text.find("| false name on clean worlds | 0/3 = 0 % [0.0, 70.8] | <= 0.7 % | reached |"),
             std::string::npos)
       << graded.text;
+  fs::remove(folder / "exam/reports/case_0003.txt");
+  const Outcome lacking = run("grade --table --answers " + out);
+  EXPECT_NE(lacking.text.find("| false name on clean worlds | 0/2 = "), std::string::npos)
+      << "without a report it is no hit: " << lacking.text;
   EXPECT_EQ(run("run exam").text, "muster_exam run: the program muster runs cases: muster exam run DIR\n");
 }
 
