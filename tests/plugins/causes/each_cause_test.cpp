@@ -101,10 +101,11 @@ TEST_P(EachCause, AtItsNeutralValuesChangesNotABit) {
 TEST_P(EachCause, IsProportionalToItsLinearParameters) {
   const auto plain = column(site.world(""), "link/*/rssi");
   auto world = site.world(it());
-  const auto paths = linear_parameters(world);
-  for (const auto& path : paths) {
-    const double value = world.parameter(path).value, bound = world.parameter(path).declared->max;
-    for (const auto& other : paths) world.set_parameter(other, 0);
+  std::map<std::string, double> given;  // each is then changed on its own, with the others at 0
+  for (const auto& path : linear_parameters(world)) given[path] = world.parameter(path).value;
+  for (const auto& [path, value] : given) {
+    const double bound = world.parameter(path).declared->max;
+    for (const auto& [other, unused] : given) world.set_parameter(other, 0);
     if (value == 0) continue;  // a fourth power that the data do not have
     world.set_parameter(path, value);
     world.evaluate(MUSTER_RADIO, false);
