@@ -42,6 +42,7 @@ TEST_P(OwnLaw, IsNamedAndMeasured) {
 TEST_P(OwnLaw, IsNotNamedWithoutItsPlugin) {
   const std::filesystem::path data = measured();
   const Diagnosis found = diagnose(world(), data, plugins);
+  EXPECT_FALSE(found.searched.empty());
   for (const CauseEstimate& cause : found.causes) EXPECT_NE(cause.id, own_law);
   for (const std::string& id : found.searched) EXPECT_NE(id, own_law);
 }
