@@ -109,12 +109,15 @@ TEST(Refined, KeepsTheOptimumThatTheSketchMisses) {
   problem.candidates = causes;
   ModelState state(problem, {});
   const WhitenedModel model = state.whitened_model(state.design());
+  int leads = 0;
   for (const ScoredCandidate& lead : scored_candidates(state, model)) {
     if (lead.candidate().id != "obstacle") continue;
+    ++leads;
     const ScoredCandidate best = refined(state, model, lead, false);
     EXPECT_GE(best.gain, model.gain(state.columns_of(lead.candidate(), at)) - 1e-9);
     EXPECT_LT((best.theta - at).head<2>().norm(), 0.5) << best.theta.transpose();
   }
+  EXPECT_GT(leads, 0);
 }
 
 TEST(RefinementNull, IsAFewNatsForAWallAndLessForAStep) {
