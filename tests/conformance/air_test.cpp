@@ -33,7 +33,7 @@ TEST_P(InTheAir, ClimbsAsItsRotorsSpeedUpOrRefusesWithTheList) {
 
 // Lifted beside its centre of mass by rotors that speed up together, it rolls by their thrust's moment.
 TEST_P(InTheAir, RollsWhereItIsLiftedBesideItsCentreOfMass) {
-  if (!GetParam().rotors) return;
+  if (!GetParam().rotors) GTEST_SKIP() << "claims no rotors";
   std::string urdf = contents(models + "hummingbird.urdf");
   const std::string body = "<mass value=\"0.68\"/>";
   urdf.insert(urdf.find(body), "<origin xyz=\"0 0.002 0\"/>");
@@ -51,7 +51,7 @@ TEST_P(InTheAir, RollsWhereItIsLiftedBesideItsCentreOfMass) {
 }
 
 TEST_P(InTheAir, TumblesWithItsMomentum) {
-  if (!GetParam().rotors) return;
+  if (!GetParam().rotors) GTEST_SKIP() << "claims no rotors";
   const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));
   Started sim = run(bird("a", "0 0 50") + lift(0), {{"forward", "1"}, {"tumble", "4"}, {"turn", "3"}}, {});
   const auto turned = [&] {
@@ -71,7 +71,7 @@ TEST_P(InTheAir, TumblesWithItsMomentum) {
 
 // Two robots that collide while falling, not quite head on: their sideways impulses sum to zero.
 TEST_P(InTheAir, KeepsMomentumInACollision) {
-  if (!GetParam().rotors) return;
+  if (!GetParam().rotors) GTEST_SKIP() << "claims no rotors";
   const auto whole = whole_mass(description::read_robot(models + "hummingbird.urdf"));
   const std::string other = "<robot name='b' model='hummingbird' heading='3.5' at='1 0.12 50'/>";
   Started sim = run(bird("a", "0 0 50") + other + lift(0), {{"forward", "1"}}, {});
@@ -88,7 +88,7 @@ TEST_P(InTheAir, KeepsMomentumInACollision) {
 }
 
 TEST_P(InTheAir, ConvergesInItsOrderInTheAir) {
-  if (GetParam().flight_order == 0) return;
+  if (GetParam().flight_order == 0) GTEST_SKIP() << "claims no order in the air";
   const auto end = [&](double step) {
     Started sim = started(GetParam(), bird("a", "0 0 50") + lift(460, 6), {{"forward", "1"}, {"tumble", "0.5"}}, {},
                           0.2, 1, {{"step", std::to_string(step)}});
@@ -105,7 +105,7 @@ TEST_P(InTheAir, ConvergesInItsOrderInTheAir) {
 }
 
 TEST_P(InTheAir, GivesTheSameBitsInTheAirForAnyWorkersRemadeAndRestored) {
-  if (!GetParam().rotors) return;
+  if (!GetParam().rotors) GTEST_SKIP() << "claims no rotors";
   expect_same_bits([&](int workers) { return run(air, {}, wild, workers); }, 40);
 }
 

@@ -73,7 +73,7 @@ TEST_P(OnTheGround, ARobotJoinsLater) {
 
 // A backend with bodies says so where a robot joins in another.
 TEST_P(OnTheGround, ARobotThatJoinsInAnotherIsTold) {
-  if (!GetParam().height) return;
+  if (!GetParam().height) GTEST_SKIP() << "claims no height";
   Started sim = run(one + "/><at t='1'><robot name='late' at='0.05 0 0'/></at>", {}, {});
   run_for(sim, 90);
   const auto told = [&] {
@@ -137,7 +137,7 @@ TEST_P(OnTheGround, SlidesAsFarAsCoulombSays) {
 
 // A box (a Hummingbird with stopped rotors) thrown along the ground.
 TEST_P(OnTheGround, SlidesAsABoxTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
-  if (!GetParam().rotors) return;
+  if (!GetParam().rotors) GTEST_SKIP() << "claims no rotors";
   const double mu = 0.3, v = 1, expected = v * v / (2 * mu * gravity);  // the default between bodies and ground
   std::vector<double> headings{0};
   if (GetParam().round_friction) headings = {0, 0.3, 0.7853981633974483, 2};
@@ -181,7 +181,7 @@ TEST_P(OnTheGround, BouncesToTheSquareOfItsRestitutionOrRefuses) {
                                                                          "(<muster restitution=...>)"));
     }
   }
-  if (!GetParam().bouncing) return;
+  if (!GetParam().bouncing) GTEST_SKIP() << "claims no bouncing";
   for (const double e : {0.5, 0.9, 1.0}) {
     const auto dropped = [&](const std::string& model, double ground) {
       const std::string at = "0 0 " + std::to_string(1 + ground);
@@ -201,7 +201,7 @@ TEST_P(OnTheGround, BouncesToTheSquareOfItsRestitutionOrRefuses) {
 
 // Thrown so that it tumbles over the ground: no higher than its energy allows.
 TEST_P(OnTheGround, BouncesWithTheEnergyThatItHas) {
-  if (!GetParam().bouncing) return;
+  if (!GetParam().bouncing) GTEST_SKIP() << "claims no bouncing";
   for (const std::string tumble : {"-7", "-2", "3", "8"}) {
     Started sim = run("<robot name='a' at='0 0 1'" + bouncing("hummingbird", 1) + lift(0),
                       {{"forward", "1"}, {"tumble", tumble}, {"turn", "2"}}, {});
@@ -219,7 +219,7 @@ TEST_P(OnTheGround, BouncesWithTheEnergyThatItHas) {
 
 // Two wheels pull with torque over radius; they also spin up themselves.
 TEST_P(OnTheGround, AcceleratesAsTorqueAllows) {
-  if (!GetParam().torque) return;
+  if (!GetParam().torque) GTEST_SKIP() << "claims no torque";
   const double torque = 0.2, wheel_inertia = 0.00025;
   Started sim = run(one + changed("max_torque", "0.2") + "/>", {}, {{"v", "9"}});
   run_for(sim, 50);
@@ -229,7 +229,7 @@ TEST_P(OnTheGround, AcceleratesAsTorqueAllows) {
 
 // A robot that lands at 2.4 m/s hardly rises again: impacts are plastic, within the solver's accuracy.
 TEST_P(OnTheGround, LandsWithoutBouncing) {
-  if (!GetParam().height) return;
+  if (!GetParam().height) GTEST_SKIP() << "claims no height";
   Started sim = run("<robot name='a' at='0 0 0.3'/>", {}, {});
   bool landed = false;
   double fastest = 0;
@@ -279,7 +279,7 @@ TEST_P(OnTheGround, FollowsIdealWheels) {
 }
 
 TEST_P(OnTheGround, ConvergesInItsOrder) {
-  if (GetParam().order == 0) return;
+  if (GetParam().order == 0) GTEST_SKIP() << "claims no order";
   const auto [x, y] = ideal_course(4);
   std::vector<double> errors;
   for (const double share : {1.0, 0.5, 0.25}) {

@@ -110,7 +110,7 @@ class OnJoints : public EachBackend {
 };
 
 TEST_P(OnJoints, PendulumsTakeTheirPeriod) {
-  if (GetParam().pendulum.empty()) return;
+  if (GetParam().pendulum.empty()) GTEST_SKIP() << "claims no pendulum";
   const bool hips = GetParam().pendulum == "hip";
   const std::vector<double> amplitudes = hips ? std::vector{0.1, 0.6, 1.2, 1.8, 2.4, 3.0} : std::vector{0.6, 2.4};
   folder.write("pendulums.urdf", hips ? on_hips(amplitudes) : on_axles(amplitudes));
@@ -152,7 +152,7 @@ TEST_P(OnJoints, LimbsTakeTheirPeriodOrAreRefusedWithTheList) {
 
 // In a circle at a constant deflection: it only turns about the vertical.
 TEST_P(OnJoints, ALimbOnABallGoesInACircle) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   constexpr double pi = 3.14159265358979, turns = 10, dt = 0.002;
   for (const double deflection : {0.1, 0.9}) {
     const double rate = std::sqrt(gravity / (arm * std::cos(deflection)));
@@ -170,7 +170,7 @@ TEST_P(OnJoints, ALimbOnABallGoesInACircle) {
 // Carriages of 2 kg on upright rails, with stops 0.1 m from their start: one without friction, one that it brakes, one
 // that it holds; and a rail with a damper, whose carriage reaches a steady speed.
 TEST_P(OnJoints, LimbsStopAtLimitsStickByFrictionAndAreDamped) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   constexpr double kilograms = 2, weight = kilograms * gravity, damper = 80;
   std::string links = body();
   const auto carriage = [&](const std::string& name, const std::string& dynamics, const std::string& stop) {
@@ -198,7 +198,7 @@ TEST_P(OnJoints, LimbsStopAtLimitsStickByFrictionAndAreDamped) {
 
 // A pendulum that swings by 0.05 rad loses its amplitude to a damper.
 TEST_P(OnJoints, DampedLimbsLoseWhatTheyShould) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   const double about = inertia + mass * arm * arm, damper = 1e-3, amplitude = 0.05, dt = 0.002;
   for (const std::string type : {"continuous", "floating"}) {
     std::string link = pendulum("bob", "0.5 0 1", amplitude, type);
@@ -224,7 +224,7 @@ TEST_P(OnJoints, DampedLimbsLoseWhatTheyShould) {
 }
 
 TEST_P(OnJoints, LimbsGiveTheSameBitsForAnyWorkersRemadeAndRestored) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   folder.write("limbs.urdf", on_limbs({{"continuous", 0.6}, {"floating", 1.2}}));
   const std::string robots = with_limbs + "<robot name='b' model='limbs.urdf' at='20 0 0.02'/>";
   const auto begun = [&](int workers) { return started(GetParam(), robots, {{"cone", "2"}}, {}, 0.01, workers); };

@@ -48,7 +48,7 @@ class LimbsTouch : public EachBackend {
 
 // From 1 rad it falls until its ball touches, and stays.
 TEST_P(LimbsTouch, AnArmComesToLieOnTheGround) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   const double height = 0.3, expected = std::acos((height - ball) / length);
   Started sim = swinging(height, 1, "");
   run_for(sim, 1000);
@@ -61,7 +61,7 @@ const std::string wall =
 const double at_wall = std::asin((0.1 - ball) / length);  // past straight down
 
 TEST_P(LimbsTouch, AWallStopsAnArm) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   Started sim = swinging(1, 1, wall);
   double farthest = 0;
   for (int k = 0; k < 1000; ++k) {
@@ -73,7 +73,7 @@ TEST_P(LimbsTouch, AWallStopsAnArm) {
 
 // With half of its rate it has a quarter of its energy before the wall.
 TEST_P(LimbsTouch, AnArmBouncesOffAWall) {
-  if (!GetParam().limbs || !GetParam().bouncing) return;
+  if (!GetParam().limbs || !GetParam().bouncing) GTEST_SKIP() << "claims no limbs or no bouncing";
   Started sim = swinging(1, 1, wall, GetParam().smooth, "<muster restitution='0.5'/>");
   while (angle_of(sim) - 1 < 0.9 * at_wall && sim.time() < 2) sim.step();
   double back = 0;
@@ -88,7 +88,7 @@ TEST_P(LimbsTouch, AnArmBouncesOffAWall) {
 // At its lowest point it meets a crate at rest. Without bounce or friction the moment of momentum about the hinge is
 // conserved, of the arm before and of both after.
 TEST_P(LimbsTouch, AnArmGivesACrateItsMomentum) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   const double height = length + 0.125, amplitude = 1.2, crate = 2;
   Started sim = swinging(height, amplitude, "<robot name='crate' model='crate' at='" + number(ball + 0.2) + " 0 0'/>",
                          GetParam().smooth);
@@ -101,7 +101,7 @@ TEST_P(LimbsTouch, AnArmGivesACrateItsMomentum) {
 
 // A sled on one foot behind a Scarab: its hinge carries the rest of its weight.
 TEST_P(LimbsTouch, ASledIsDraggedAlong) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   const double torque = 0.2, wheel_inertia = 0.00025;
   const double height = 0.1, back = 0.3, centre = 0.2, kilograms = 1;  // of the hinge; of foot and mass behind it
   std::string urdf = contents(models + "scarab.urdf");
@@ -128,7 +128,7 @@ TEST_P(LimbsTouch, ASledIsDraggedAlong) {
 }
 
 TEST_P(LimbsTouch, GiveTheSameBitsForAnyWorkersRemadeAndRestored) {
-  if (!GetParam().limbs) return;
+  if (!GetParam().limbs) GTEST_SKIP() << "claims no limbs";
   const auto begun = [&](int workers) {
     folder.write("arm.urdf", arm(0.36, 1.2));
     return started(GetParam(),

@@ -23,7 +23,7 @@ class Pushed : public EachBackend {
 };
 
 TEST_P(Pushed, IsRefusedWithTheListWhereNothingPushes) {
-  if (GetParam().pushed) return;
+  if (GetParam().pushed) GTEST_SKIP() << "claims to push";
   try {
     run(crate("0"), {}, {});
     FAIL() << "nothing was thrown";
@@ -35,7 +35,7 @@ TEST_P(Pushed, IsRefusedWithTheListWhereNothingPushes) {
 }
 
 TEST_P(Pushed, ACrateStandsStillAtRest) {
-  if (!GetParam().pushed) return;
+  if (!GetParam().pushed) GTEST_SKIP() << "claims no pushing";
   Started sim = run(crate("1", "3 -2 0"), {}, {});
   run_for(sim, 200);
   EXPECT_LT(state(sim).distance(3, -2), GetParam().rest);
@@ -46,7 +46,7 @@ TEST_P(Pushed, ACrateStandsStillAtRest) {
 
 // On four corners, whose friction shifts weight to the front: in sum it equals the friction of its weight.
 TEST_P(Pushed, ACrateSlidesTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
-  if (!GetParam().pushed) return;
+  if (!GetParam().pushed) GTEST_SKIP() << "claims no pushing";
   const double expected = 1 / (2 * mu * gravity);
   std::vector<double> headings{0};
   if (GetParam().round_friction) headings = {0, 0.3, 0.7853981633974483, 2};
@@ -63,7 +63,7 @@ TEST_P(Pushed, ACrateSlidesTheSquareOfItsSpeedOverTwiceFrictionAndGravity) {
 // Thrown without spin it slides until it rolls, with five sevenths of its speed: the moment of momentum about its
 // contact point is conserved.
 TEST_P(Pushed, ABallThatSlidesRollsWithFiveSeventhsOfItsSpeed) {
-  if (!GetParam().pushed) return;
+  if (!GetParam().pushed) GTEST_SKIP() << "claims no pushing";
   const double v = 1, until = 2 * v / (7 * mu * gravity), end = 0.5;
   Started sim = run(ball(), {{"forward", "1"}}, {});
   run_for(sim, 50);
@@ -77,7 +77,7 @@ TEST_P(Pushed, ABallThatSlidesRollsWithFiveSeventhsOfItsSpeed) {
 // Two wheels pull with torque over radius, against the rolling mass and the pushed one. Where the two touch they stick,
 // so friction may shift weight from one to the other, by up to its bound.
 TEST_P(Pushed, ARobotPushesACrateWithWhatItsMotorsGive) {
-  if (!GetParam().pushed || !GetParam().torque) return;
+  if (!GetParam().pushed || !GetParam().torque) GTEST_SKIP() << "claims no pushing or no torque";
   const double torque = 0.4, wheel_inertia = 0.00025, way = 0.02, nose = 0.1, half = 0.2;
   std::string urdf = contents(models + "scarab.urdf");
   const std::string asked = "max_torque=\"2.765\"";
@@ -99,7 +99,7 @@ TEST_P(Pushed, ARobotPushesACrateWithWhatItsMotorsGive) {
 }
 
 TEST_P(Pushed, GivesTheSameBitsForAnyWorkersRemadeAndRestored) {
-  if (!GetParam().pushed) return;
+  if (!GetParam().pushed) GTEST_SKIP() << "claims no pushing";
   const std::string robots =
       crate("0.4", "0.35 0.05 0") + "<robot name='b' at='0 0 0'/>" + "<robot name='c' model='crate' at='4 0 0'/>";
   const auto begun = [&](int workers) { return run(robots, {}, wild, workers); };

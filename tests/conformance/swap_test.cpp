@@ -36,7 +36,7 @@ TEST_P(EachSwap, NothingJumps) {
 
 TEST_P(EachSwap, NothingJumpsInTheAir) {
   const auto& [from, to] = GetParam();
-  if (!from.rotors || !to.rotors) return;
+  if (!from.rotors || !to.rotors) GTEST_SKIP() << "one of them claims no rotors";
   Started sim = started(from, air, {}, wild);
   run_for(sim, 60);
   const State before = state(sim, "b");
@@ -61,7 +61,7 @@ TEST_P(EachSwap, NothingJumpsInTheAir) {
 // A pendulum on the back of a robot that drives.
 TEST_P(EachSwap, LimbsGoOnWithoutAJump) {
   const auto& [from, to] = GetParam();
-  if (!from.limbs || !to.limbs) return;
+  if (!from.limbs || !to.limbs) GTEST_SKIP() << "one of them claims no limbs";
   std::filesystem::copy_file(models + "hokuyo.stl", folder / "hokuyo.stl");
   std::string urdf = contents(models + "scarab.urdf");
   urdf.insert(urdf.find("<muster>"),
