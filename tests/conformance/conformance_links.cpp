@@ -25,7 +25,7 @@ struct Links {
     std::vector<Ends> pairs;
     for (std::size_t a = 0; a < mounts.size(); ++a) {
       radios[a] = {static_cast<double>(a), k.time()};
-      poses[a] = {mounts[a].x + k.time() / 64, mounts[a].y, mounts[a].z, 1, 0, 0, 0};  // all drift alike
+      poses[a] = {mounts[a].x * (1 + k.time() / 64), mounts[a].y, mounts[a].z, 1, 0, 0, 0};  // they drift apart
       for (std::size_t b = 0; b < mounts.size(); ++b) {
         if (a != b) pairs.push_back({static_cast<double>(a), static_cast<double>(b)});
       }
