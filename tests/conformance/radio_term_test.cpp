@@ -1,8 +1,10 @@
 // Requirements for any plugin that fills columns of links, identified by its file alone: each *.so among the plugins.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -152,6 +154,17 @@ std::vector<Term> terms() {
     }
   }
   return result;
+}
+
+// A plugin that terms() drops is not checked at all. These need no attributes and say that they are reciprocal.
+TEST(RadioTerms, AreAmongThemWhoseFilesAreThere) {
+  const std::vector<Term> all = terms();
+  for (const std::string name : {"multiwall", "fading", "ar1", "gudmundson"}) {
+    if (!std::filesystem::exists(std::string(MUSTER_PLUGINS_DIR) + "/radio_" + name + ".so")) continue;
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Term& t) { return t.id == "radio." + name; });
+    ASSERT_NE(found, all.end()) << name;
+    EXPECT_TRUE(found->is_reciprocal) << name;
+  }
 }
 
 // A build without any radio plugin has nothing to check here.
