@@ -90,11 +90,15 @@ TEST(LinkSmooths, AreTheSameForBothDirectionsOfALink) {
 
 TEST(LinkSmooths, NoneDependsOnUnknownPlaces) {
   const auto world = world_of(varied(4, 400));
+  std::set<std::string> ids;
   for (const Candidate& c : link_smooths(world.readings, columns_of(world), false)) {
+    ids.insert(c.id);
     for (const std::string& covariate : c.covariates)
       EXPECT_TRUE(covariate.find("position") == std::string::npos && covariate.find("bearing") == std::string::npos)
           << c.id;
   }
+  for (const char* id : {"~logd", "~heading", "~time", "~link"}) EXPECT_EQ(ids.count(id), 1u) << id;
+  for (const char* id : {"~bearing", "~txbearing", "~position", "~time*position"}) EXPECT_EQ(ids.count(id), 0u) << id;
 }
 
 }  // namespace

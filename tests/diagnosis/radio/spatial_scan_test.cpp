@@ -99,7 +99,9 @@ TEST(SpatialScan, ExcludesSegmentsThatWereDrivenAcross) {
   for (int y = 2; y < 7; ++y) plan.survey.ways.push_back({6.0, 1.0 * y, 6.0, y + 1.0});
   Scored tally =
       plan.scored([&](const Point& a, const Point& b) { return meets_segment(a, b, middle - half, middle + half); });
-  for (const Eigen::VectorXd& theta : SegmentScan(plan.survey, plan.links, plan.readings())(tally)) {
+  const auto swept = SegmentScan(plan.survey, plan.links, plan.readings())(tally);
+  ASSERT_FALSE(swept.empty());
+  for (const Eigen::VectorXd& theta : swept) {
     const Ends e = ends_of(theta);
     EXPECT_FALSE(meets_segment({6, 2}, {6, 7}, e.from, e.to)) << theta.transpose();
   }
