@@ -334,11 +334,14 @@ TEST_P(Wall, IsFoundAtItsEdges) {
       made_case(scratch, "--seed 503 --rows 2000 20000 --mix one --effects unmapped_wall --lambda 100", GetParam());
   const Diagnosis found = diagnose(world, world / "measured.csv", plugins);
   expect_only("effect.unmapped_wall", found);
+  int edges = 0;
   for (const CauseValue& value : found.causes.at(0).values) {
     if (value.unit == "m") {
       EXPECT_LT(value.upper95 - value.lower95, 10) << value.name;
+      ++edges;
     }
   }
+  EXPECT_GE(edges, 4);  // of two ends
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Wall, testing::Values(15, 16, 8));
