@@ -73,14 +73,18 @@ TEST(Links, KnowNothingOfAPeerThatIsSilent) {
 TEST(Links, ReadNoChannel) {
   Folder folder;
   Simulation run = world_of(folder, three + air + "<control.beacon radio=\"base\"/><sensors.links name=\"l\"/>");
+  int seen = 0;
   for (const auto& instance : run.instances()) {
     if (instance->name() != "l") continue;
+    ++seen;
+    EXPECT_FALSE(instance->claims().empty());
     for (const auto& claim : instance->claims()) {
       EXPECT_NE(claim.name.set, "link");
       EXPECT_NE(claim.name.set, "endpoint");
       EXPECT_NE(claim.name.quantity, "pose");
     }
   }
+  EXPECT_EQ(seen, 1);
 }
 
 TEST(Links, SmoothAsDriversDo) {

@@ -43,8 +43,10 @@ TEST(Blind, AndSoIsOneThatReadsAnotherRobot) {
 
 TEST(Blind, OursClaimTheirOwnRobotAlone) {
   const Simulation run(connectivity(), standard(), options());
+  int seen = 0;
   for (const auto& instance : run.instances()) {
     if (instance->declared().plugin != "control.connectivity") continue;
+    ++seen;
     const std::string robot = run.board().find_set("robot")->names[static_cast<std::size_t>(instance->bound_row())];
     std::set<std::string> claimed;
     for (const Claim& claim : instance->claims()) {
@@ -54,6 +56,7 @@ TEST(Blind, OursClaimTheirOwnRobotAlone) {
                                               "inbox/" + robot + "/message", "outbox/" + robot + "/message",
                                               "instance/" + instance->name() + "/*/state"}));
   }
+  EXPECT_EQ(seen, 3);
 }
 
 // The same controllers, from the same library and with the same attributes, in another channel.
