@@ -1,6 +1,8 @@
 // Exams of the generators field and run, made, diagnosed by the program, and graded.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "command.hpp"
 #include "tests/folder.hpp"
 
@@ -27,8 +29,7 @@ TEST(Sat, AFlatWithoutItsWallIsNotAdequate) {
 
 TEST(Sat, WorldsOfTheSimulatorAreGraded) {
   const std::string clean = sat("--generator run --mix clean --rows 1000 1500 --seed 5 --cases 2");
-  EXPECT_NE(clean.find("| false name on clean worlds | "), std::string::npos) << clean;
-  EXPECT_NE(clean.find("/2 = "), std::string::npos) << clean;
+  EXPECT_TRUE(std::regex_search(clean, std::regex(R"(\| false name on clean worlds \| [0-2]/2 = )"))) << clean;
   const std::string planted =
       sat("--generator run --mix one --effects tx_offset --lambda 300 --rows 1000 1500 --seed 5 --cases 2");
   EXPECT_NE(planted.find("| tx_offset / lambda >= 50 | "), std::string::npos) << planted;
