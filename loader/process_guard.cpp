@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <clocale>
 #include <cstdio>
 #include <cstdlib>
@@ -63,7 +64,11 @@ std::optional<mode_t> file_mask() {
   ::close(told);
   const char* const at = size > 0 ? std::strstr(text, "\nUmask:") : nullptr;
   if (!at) return {};
-  return static_cast<mode_t>(std::strtoul(at + std::strlen("\nUmask:"), nullptr, 8));
+  const char* first = at + std::strlen("\nUmask:");
+  first += std::strspn(first, " \t");
+  mode_t mask = 0;
+  if (std::from_chars(first, text + size, mask, 8).ec != std::errc{}) return {};
+  return mask;
 }
 
 bool differ(std::optional<mode_t> a, std::optional<mode_t> b) { return a && b && *a != *b; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstring>
 #include <map>
 #include <muster/plugin.hpp>
 #include <mutex>
@@ -32,7 +34,9 @@ std::map<uint64_t, InstanceCode*>& all_codes() {
 
 std::shared_ptr<InstanceCode> code_of(const char* number) {
   const std::lock_guard lock(guard);
-  const auto found = all_codes().find(number ? std::strtoull(number, nullptr, 10) : 0);
+  uint64_t key = 0;
+  if (number) std::from_chars(number, number + std::strlen(number), key);
+  const auto found = all_codes().find(key);
   return found == all_codes().end() ? nullptr : found->second->weak_from_this().lock();
 }
 
