@@ -264,7 +264,7 @@ void add_inside(Grades& grades, const Truth& truth, const Verdict& verdict) {
 
 void add_outside(Grades& grades, const Truth& truth, const Verdict& verdict) {
   const auto& effect = truth.effects.at(0);
-  const bool hit = is_found(verdict, effect);
+  const bool hit = reported_along_covariate(verdict, effect) || found(verdict, effect);
   const bool false_name =
       std::any_of(verdict.named.begin(), verdict.named.end(), [&](const auto& cause) { return !names(cause, effect); });
   for (const std::string& bin : {lambda_bin(effect.lambda), std::string("all")}) {

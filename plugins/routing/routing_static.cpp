@@ -2,7 +2,6 @@
 #include <optional>
 #include <set>
 
-#include "plugins/periods.hpp"
 #include "plugins/table_rows.hpp"
 #include "router.hpp"
 
@@ -77,7 +76,7 @@ one that goes round in the table ends as ttl_expired. Broadcasts reach the neigh
                                            " already, by " + name(k, known->second) + "; expected one row, by " +
                                            name(k, known->second) + " or by " + name(k, next));
     }
-    if (is_first_step(k.time(), k.dt())) look_for_loops(k);
+    if (k.tick() <= 1) look_for_loops(k);
   }
 
   static std::string name(const Step& k, Radio radio) { return std::string(k.name("radio", radio)); }
