@@ -73,6 +73,13 @@ TEST(SimulatedDraws, CausesInExactReadingsAreNamed) {
   for (const int number : {10, 26, 49, 58}) expect_named(number, "99102");
 }
 
+// The field of a few waves is smoother than its covariance, by which the stated noise was refused; and beside a field
+// that is fitted a station's level says little: offsets of lambda 140 and 167 were silent.
+TEST(SimulatedDraws, AnOffsetInAFieldThatNothingBlursIsNamed) {
+  expect_named(5, "99602");
+  expect_named(40, "99702");
+}
+
 // A battery that falls all the while bends as well as a drift or a step does, and has no name.
 TEST(SimulatedDraws, WhatDependsOnTimeIsNoBattery) {
   for (const int number : {21, 30}) expect_named(number, "99602");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/inference/noise/columns.hpp"
+#include "diagnosis/inference/score/drawn_inflation.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/stays.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
@@ -13,25 +14,58 @@
 namespace muster::inference {
 namespace {
 
-// Fits of each family with the stated size and distance held, the best one first.
-std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::MatrixXd& design) {
+// Fits of each family with the stated size and distance held, the best one first. `y`: the rows, or a draw of them.
+std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::VectorXd& y,
+                                         const Eigen::MatrixXd& design) {
   std::vector<noise::Fit> fits;
   const noise::Family fitted = state.fit.covariance.family;
   const bool fixed = noise::fixed_share(fitted) > 0;
   for (const noise::Family family : fixed ? std::vector{fitted} : state.field().families()) {
     const auto start = as_stated(state.problem().stated, family, state.fit.covariance.theta, state.within());
-    fits.push_back(noise::fit(state.field(), state.y(), design, state.options().prior, start, 6, noise::unstated));
+    fits.push_back(noise::fit(state.field(), y, design, state.options().prior, start, 6, noise::unstated));
   }
   std::sort(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
   return fits;
 }
 
-// True if the stated field, with the lead in the model, fits as well as the best one. It must lie in the joint 99 %
-// region of its two parameters.
-bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& both, const noise::Fit& stated) {
-  const double near_fit = state.fitted(both, state.fit.covariance, 6).value;
-  const double near_stated = state.fitted(both, stated.covariance, 6).value;
-  return stated.value <= std::min(near_fit, near_stated) + thresholds::stated_field_nats;
+// Nats by which the stated field, with the lead in the model, is behind the best one.
+double nats_behind(const ModelState& state, const Eigen::VectorXd& y, const Eigen::MatrixXd& both,
+                   const noise::Fit& stated) {
+  const auto value_from = [&](const noise::Covariance& start) {
+    return noise::fit(state.field(), y, both, state.options().prior, start, 6).value;
+  };
+  return stated.value - std::min(value_from(state.fit.covariance), value_from(stated.covariance));
+}
+
+// True if draws of the model, whose field is the stated one, are as far behind. Where nothing blurs the readings, a few
+// waves are smoother than their covariance says, and the likelihood, which looks at neighbours, prefers another one by
+// far; the levels of whole stations scatter as stated all the same.
+bool draws_are_behind(const ModelState& state, const Eigen::MatrixXd& both, double behind) {
+  if (!state.field().sites().stated || state.fit.covariance.reading_variance() >= thresholds::unblurred_variance)
+    return false;
+  const Eigen::MatrixXd& drawn = state.drawn(state.problem().stated);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (Index k = 0; k < std::min<Index>(thresholds::compared_draws, drawn.cols()); ++k) {
+    const Eigen::VectorXd y = drawn.col(k);
+    const double of_draw = nats_behind(state, y, both, fitted_as_stated(state, y, both)[0]);
+    least = std::min(least, of_draw), most = std::max(most, of_draw);
+    if (behind <= most + (most - least)) return true;
+  }
+  return false;
+}
+
+// True if the stated field, with the lead in the model, fits as well as the best one, or as it does in draws. It must
+// lie in the joint 99 % region of its two parameters; else the gain is divided by what draws have of it.
+bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& design, const Eigen::MatrixXd& both,
+                      const noise::Fit& stated, double threshold, ScoredCandidate& lead) {
+  const double behind = nats_behind(state, state.y(), both, stated);
+  if (behind <= thresholds::stated_field_nats) return true;
+  if (!draws_are_behind(state, both, behind)) return false;
+  const Candidate& c = lead.candidate();
+  const WhitenedModel model = state.whitened_model(design, stated.covariance);
+  lead.gain /= drawn_inflation(state, model, c, state.problem().stated);
+  lead.log_p = std::max(lead.log_p, state.log_p(c, lead.gain, c.design.width, false) + model.skew_charge(lead.columns));
+  return lead.log_p < threshold;
 }
 
 // Significant slow candidates, the likeliest first.
@@ -78,13 +112,13 @@ std::optional<ScoredCandidate> stated_noise_pass(ModelState& state, const std::f
   if (state.problem().stated.shadowing <= 0 || state.problem().bounds.any()) return {};
   const double threshold = state.threshold() - std::log(2.0);  // a second test
   const Eigen::MatrixXd design = state.design();
-  const WhitenedModel alone = state.whitened_model(design, fitted_as_stated(state, design)[0].covariance);
+  const WhitenedModel alone = state.whitened_model(design, fitted_as_stated(state, state.y(), design)[0].covariance);
   std::vector<ScoredCandidate> leads = beyond_chance(state, alone, threshold, usable);
   for (std::size_t k = 0; k < std::min(leads.size(), thresholds::most_stated_leads); ++k) {
     const Eigen::MatrixXd both = noise::hstack(design, leads[k].columns);
-    const std::vector<noise::Fit> fits = fitted_as_stated(state, both);
+    const std::vector<noise::Fit> fits = fitted_as_stated(state, state.y(), both);
     weigh_beside(state, design, fits, leads[k]);
-    if (leads[k].log_p >= threshold || !stands_as_stated(state, both, fits[0])) continue;
+    if (leads[k].log_p >= threshold || !stands_as_stated(state, design, both, fits[0], threshold, leads[k])) continue;
     const Candidate& c = leads[k].candidate();
     if (!is_chance_of_stays(state, c, leads[k].columns, design)) return leads[k];
     trials.push_back({c.id, c.label_of(leads[k].theta), leads[k].gain, leads[k].log_p, leads[k].log_p, false,
