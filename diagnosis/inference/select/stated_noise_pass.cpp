@@ -54,8 +54,9 @@ bool draws_are_behind(const ModelState& state, const Eigen::MatrixXd& both, doub
   return false;
 }
 
-// True if the stated field, with the lead in the model, fits as well as the best one, or as it does in draws. It must
-// lie in the joint 99 % region of its two parameters; else the gain is divided by what draws have of it.
+// True if the stated field, with the lead in the model, fits as well as the best one: it lies in the joint 99 % region
+// of its two parameters. Or if it fits as it does in draws, and the lead is beyond chance with its gain divided by what
+// draws have of it.
 bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& design, const Eigen::MatrixXd& both,
                       const noise::Fit& stated, double threshold, ScoredCandidate& lead) {
   const double behind = nats_behind(state, state.y(), both, stated);
