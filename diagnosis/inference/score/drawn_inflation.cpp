@@ -58,6 +58,18 @@ double drawn_inflation(const ModelState& state, const WhitenedModel& model, cons
   return usual > 0 ? std::max(1.0, static_cast<double>(highest(white.cast<float>()) / usual)) : 1;
 }
 
+bool within_draws(const ModelState& state, const noise::StatedField& field, double of_data,
+                  const std::function<double(const Eigen::VectorXd&)>& statistic) {
+  const Eigen::MatrixXd& drawn = state.drawn(field);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (Index k = 0; k < std::min<Index>(thresholds::compared_draws, drawn.cols()); ++k) {
+    const double of_draw = statistic(drawn.col(k));
+    least = std::min(least, of_draw), most = std::max(most, of_draw);
+    if (of_data <= most + (most - least)) return true;  // a further draw can only raise the bound
+  }
+  return false;
+}
+
 bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field) {
   const noise::Covariance& fitted = state.fit.covariance;
   if (!state.field().sites().stated || state.drawn(field).cols() == 0) return false;
@@ -74,15 +86,7 @@ bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, con
     };
     return value(stated) - value(place);
   };
-  // A further draw can only raise the bound.
-  const double of_data = apart(state.y());
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (Index k = 0; k < thresholds::compared_draws; ++k) {
-    const double of_draw = apart(state.drawn(field).col(k));
-    least = std::min(least, of_draw), most = std::max(most, of_draw);
-    if (of_data <= most + (most - least)) return true;
-  }
-  return false;
+  return within_draws(state, field, apart(state.y()), apart);
 }
 
 }  // namespace muster::inference

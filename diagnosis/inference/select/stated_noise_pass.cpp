@@ -43,15 +43,9 @@ double nats_behind(const ModelState& state, const Eigen::VectorXd& y, const Eige
 bool draws_are_behind(const ModelState& state, const Eigen::MatrixXd& both, double behind) {
   if (!state.field().sites().stated || state.fit.covariance.reading_variance() >= thresholds::unblurred_variance)
     return false;
-  const Eigen::MatrixXd& drawn = state.drawn(state.problem().stated);
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (Index k = 0; k < std::min<Index>(thresholds::compared_draws, drawn.cols()); ++k) {
-    const Eigen::VectorXd y = drawn.col(k);
-    const double of_draw = nats_behind(state, y, both, fitted_as_stated(state, y, both)[0]);
-    least = std::min(least, of_draw), most = std::max(most, of_draw);
-    if (behind <= most + (most - least)) return true;
-  }
-  return false;
+  return within_draws(state, state.problem().stated, behind, [&](const Eigen::VectorXd& y) {
+    return nats_behind(state, y, both, fitted_as_stated(state, y, both)[0]);
+  });
 }
 
 // True if the stated field, with the lead in the model, fits as well as the best one: it lies in the joint 99 % region
