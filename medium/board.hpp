@@ -10,6 +10,7 @@
 #include <string>
 
 #include "medium/readings.hpp"
+#include "medium/request_moments.hpp"
 #include "medium/transmit_queue.hpp"
 
 namespace muster::medium {
@@ -21,13 +22,9 @@ struct Quality {
 
 class Board {
  public:
-  // A plugin declares this flag to spread requests over their tick.
-  static constexpr Param spread_param = flag("spread", true, "requests come at any moment of their tick");
-
   // `state`: name of its table, a different one for each kind of medium, since their formats differ.
   Board(Setup& s, const char* state, Quality quality)
       : quality_(quality),
-        spread_(s.value("spread")),
         request_(s.read<Outgoing>("outbox/*/message")),
         endpoint_(s.read<Endpoint>("endpoint/*/radio")),
         ends_(s.read<Ends>("link/*/ends")),
@@ -39,7 +36,7 @@ class Board {
         inbox_(s.write<Incoming>("inbox/*/message")),
         traffic_(s.write<Traffic>("radio/*/traffic")),
         state_(s.write<State>(state)),
-        moments_(s.stream("moments of requests")) {}
+        moments_(s) {}
 
   // Runs the medium through the tick. `band`: all that its radios may receive in; `sensitivity`: of a profile whose
   // world gives none, where it depends on the mode.
@@ -121,13 +118,13 @@ class Board {
   }
 
   template <class Medium>
-  void ask(const Step& k, Medium& medium) const {
+  void ask(const Step& k, Medium& medium) {
     const auto requests = k[request_];
+    moments_.start(channel_.radios);
     const Time last = nanoseconds(k.time()) - 1;  // of this run: a request that rounds to its end would be dropped
     for (std::size_t i = 0; i < requests.size(); ++i) {
       const auto from = static_cast<std::size_t>(requests[i].radio);
-      const double share = k[spread_] != 0 ? moments_.of(channel_.keys[from]).uniform(k.tick(), i) : 0;
-      medium.ask(std::min(nanoseconds(k.time() - (1 - share) * k.dt()), last), from,
+      medium.ask(std::min(nanoseconds(moments_.next(k, from)), last), from,
                  is_null(requests[i].to) ? everyone : static_cast<std::size_t>(requests[i].to),
                  std::string(k.bytes(request_, i, Outgoing::payload_column)));
     }
@@ -173,7 +170,6 @@ class Board {
   }
 
   Quality quality_;
-  Value spread_;
   In<Outgoing> request_;
   In<Endpoint> endpoint_;
   In<Ends> ends_;
@@ -185,7 +181,7 @@ class Board {
   Out<Incoming> inbox_;
   Out<Traffic> traffic_;
   Out<State> state_;
-  Stream moments_;
+  RequestMoments moments_;
   Channel channel_;    // buffer, kept from step to step
   std::string saved_;  // state that the medium holds now
 };

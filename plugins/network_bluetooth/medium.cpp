@@ -72,15 +72,25 @@ void Medium::choose_master() {
     const auto first = std::find(is_there_.begin(), is_there_.end(), true);
     master = first == is_there_.end() ? 0 : static_cast<std::size_t>(first - is_there_.begin());
   } else if (channel_->alive[master] && !is_there_[master]) {
-    throw JammingMaster("jams, so that it is no radio of the piconet");
+    throw JammingMaster("jams, so that it is no radio of the piconet", members());
   }
+  if (master < radios_.size()) radios_[master].answers = never;  // it owes none, even if it was a slave until now
+}
+
+std::vector<std::size_t> Medium::members() const {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < is_there_.size(); ++i) {
+    if (is_there_[i]) result.push_back(i);
+  }
+  return result;
 }
 
 void Medium::look_who_is_there() {
   const auto there = std::count(is_there_.begin(), is_there_.end(), true);
   if (there > 1 + most_slaves)
     throw TooManyRadios(std::to_string(there) + " radios; a piconet has one master and at most " +
-                        std::to_string(most_slaves) + " slaves");
+                            std::to_string(most_slaves) + " slaves",
+                        members());
   for (std::size_t i = 0; i < radios_.size(); ++i) {
     if (is_there_[i]) continue;
     radios_[i] = {};

@@ -29,12 +29,19 @@ struct Settings {
   std::size_t queue = 64;  // limit of messages in a radio's queue
 };
 
-struct TooManyRadios : std::runtime_error {
-  using std::runtime_error::runtime_error;
+// `there`: the radios that may belong to the piconet, by index.
+struct NoPiconet : std::runtime_error {
+  NoPiconet(const std::string& why, std::vector<std::size_t> radios)
+      : std::runtime_error(why), there(std::move(radios)) {}
+  std::vector<std::size_t> there;
 };
 
-struct JammingMaster : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct TooManyRadios : NoPiconet {
+  using NoPiconet::NoPiconet;
+};
+
+struct JammingMaster : NoPiconet {
+  using NoPiconet::NoPiconet;
 };
 
 class Medium {
@@ -79,6 +86,7 @@ class Medium {
   };
 
   void choose_master();
+  std::vector<std::size_t> members() const;
   void look_who_is_there();
   bool is_linked(std::size_t one, std::size_t other) const;
   void handle(const medium::Event& event);

@@ -8,7 +8,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkBluetooth {
-  static constexpr auto id = "network.bluetooth/3";
+  static constexpr auto id = "network.bluetooth/4";
   static constexpr auto summary = "Bluetooth at its basic rate: a master and up to seven slaves, polled in slots";
   static constexpr auto manual =
       R"(Messages as packets of Bluetooth (Core Specification 2.0, basic rate): slots of 625 us, 79 channels of 1 MHz.
@@ -35,7 +35,7 @@ gone + those still under way.)";
       real("flush_timeout", 0.05, 0, 41, "s", "a packet not acknowledged by then ends its message; 0: never"),
       real("noise", -106.976, -250, 50, "dBm", "of a receiver"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
-      medium::Board::spread_param,
+      medium::RequestMoments::spread_param,
       medium::Readings::mode_param,
       medium::Readings::step_param(1),
       medium::Readings::least_param(-127),
@@ -65,20 +65,19 @@ gone + those still under way.)";
       board.step(k, medium, settings, {bluetooth::band_of(0).low, bluetooth::band_of(78).high});
     } catch (const bluetooth::JammingMaster& e) {
       throw BadInput("attribute \"master\": \"" + std::string(k.name("radio", settings.master)) + "\" " + e.what() +
-                     "; expected one that does not jam, of " + living(k));
+                     "; expected one that does not jam, of " + names(k, e.there));
     } catch (const bluetooth::TooManyRadios& e) {
       throw BadInput(e.what() + std::string("; expected ") + std::to_string(1 + bluetooth::most_slaves) +
                      " radios or fewer, or another network in its place, such as <network.wifi/>; the radios are " +
-                     living(k));
+                     names(k, e.there));
     }
   }
 
-  static std::string living(const Step& k) {
-    std::string there;
-    for (uint32_t row = 0; row < k.rows("radio"); ++row) {
-      if (k.alive("radio", row)) there += (there.empty() ? "" : ", ") + std::string(k.name("radio", row));
-    }
-    return there;
+  static std::string names(const Step& k, const std::vector<std::size_t>& radios) {
+    std::string list;
+    for (const std::size_t radio : radios)
+      list += (list.empty() ? "" : ", ") + std::string(k.name("radio", static_cast<uint32_t>(radio)));
+    return list;
   }
 
   Value master, largest, poll_interval, flush_timeout, noise, queue;

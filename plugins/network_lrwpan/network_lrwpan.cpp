@@ -12,7 +12,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkLrwpan {
-  static constexpr auto id = "network.lrwpan/3";
+  static constexpr auto id = "network.lrwpan/4";
   static constexpr auto summary = "IEEE 802.15.4 at 2.4 GHz: radios that share a channel by CSMA/CA";
   static constexpr auto manual =
       R"(Messages as frames of IEEE 802.15.4-2006 (the radio of Zigbee), CSMA/CA, 250 kbit/s: back-off, clear-channel
@@ -48,11 +48,12 @@ queue_full + no_ack + gone + those still under way.)";
       choice("addresses", "short|extended", "of 16 or of 64 bits, which every frame bears"),
       integer("queue", 16, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
       real("capture", 0, 0, 60, "dB", "a later frame so far above all others takes a receiver over; 0: none does"),
-      medium::Board::spread_param,
+      medium::RequestMoments::spread_param,
       integer("beacon_order", lrwpan::no_beacons, 0, 15, "macBeaconOrder, BO: of the time between beacons; 15: none"),
       integer("superframe_order", lrwpan::no_beacons, 0, 15, "macSuperframeOrder, SO: of the active part; 15: as BO"),
       reference("coordinator", "radio",
-                "of the PAN, which sends the beacons; by default the first radio; only with beacon_order below 15"),
+                "of the PAN, which sends the beacons; by default the first radio that is there; only with beacon_order "
+                "below 15"),
       medium::Readings::mode_param,
       medium::Readings::step_param(1),
       medium::Readings::least_param(-100),
@@ -96,10 +97,17 @@ queue_full + no_ack + gone + those still under way.)";
     if (superframe) superframe->step(k, medium.members(), settings.coordinator);
   }
 
+  static std::size_t first_there(const Step& k) {
+    for (uint32_t radio = 0; radio < k.rows("radio"); ++radio) {
+      if (k.alive("radio", radio)) return radio;
+    }
+    return 0;
+  }
+
   void set_superframe(const Step& k, lrwpan::Settings& settings) const {
     settings.beacon_order = static_cast<int>(k[beacon_order]);
     settings.superframe_order = static_cast<int>(k[superframe_order]);
-    if (k[coordinator] >= 0) settings.coordinator = static_cast<std::size_t>(k[coordinator]);
+    settings.coordinator = k[coordinator] >= 0 ? static_cast<std::size_t>(k[coordinator]) : first_there(k);
     const bool has_active_part = settings.superframe_order < lrwpan::no_beacons;
     if (has_active_part && settings.beacon_order == lrwpan::no_beacons)
       throw BadInput("attribute \"superframe_order\": is given without beacon_order; expected both, or neither");

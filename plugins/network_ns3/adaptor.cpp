@@ -10,8 +10,7 @@ namespace muster::external {
 using medium::DeliveryOutcome;
 
 Adaptor::Adaptor(Setup& s)
-    : spread_(s.value("spread")),
-      request_(s.read<Outgoing>("outbox/*/message")),
+    : request_(s.read<Outgoing>("outbox/*/message")),
       endpoint_(s.read<Endpoint>("endpoint/*/radio")),
       pose_(s.read<Pose>("endpoint/*/pose")),
       ends_(s.read<Ends>("link/*/ends")),
@@ -22,7 +21,7 @@ Adaptor::Adaptor(Setup& s)
       inbox_(s.write<Incoming>("inbox/*/message")),
       traffic_(s.write<Traffic>("radio/*/traffic")),
       progress_(s.write<Progress>("self/progress")),
-      moments_(s.stream("moments of requests")),
+      moments_(s),
       seed_(s.host()->stream(s.host(), "external simulator")) {}
 
 void Adaptor::step(const Step& k, const std::function<std::unique_ptr<Backend>()>& make, double noise) {
@@ -95,11 +94,11 @@ void Adaptor::look(const Step& k) {
 
 void Adaptor::ask(const Step& k) {
   const auto requests = k[request_];
+  moments_.start(fates_.size());
   for (std::size_t i = 0; i < requests.size(); ++i) {
     const auto from = static_cast<std::size_t>(requests[i].radio);
     const std::size_t to = is_null(requests[i].to) ? everyone : static_cast<std::size_t>(requests[i].to);
-    const double share = k[spread_] != 0 ? moments_.of(k.key("radio", from)).uniform(k.tick(), i) : 0;
-    Message message{from, k.time() - (1 - share) * k.dt(), medium::Receivers(to), to != everyone};
+    Message message{from, moments_.next(k, from), medium::Receivers(to), to != everyone};
     if (to == everyone) {
       std::vector<std::uint8_t> others = world_.alive;
       others[from] = false;

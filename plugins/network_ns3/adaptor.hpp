@@ -8,14 +8,13 @@
 #include <muster/plugin.hpp>
 
 #include "backend.hpp"
+#include "medium/request_moments.hpp"
 #include "medium/transmit_queue.hpp"
 
 namespace muster::external {
 
 class Adaptor {
  public:
-  static constexpr Param spread_param = flag("spread", true, "requests come at any moment of their tick");
-
   explicit Adaptor(Setup& s);
 
   // `make`: the backend, called in the first step; `noise`: at each radio, in dBm.
@@ -49,7 +48,6 @@ class Adaptor {
   void note(std::uint64_t what) { history_ = combined(history_, what); }
   double history() const { return static_cast<double>(history_ >> 12); }  // exact in a double
 
-  Value spread_;
   In<Outgoing> request_;
   In<Endpoint> endpoint_;
   In<Pose> pose_;
@@ -61,7 +59,7 @@ class Adaptor {
   Out<Incoming> inbox_;
   Out<Traffic> traffic_;
   Out<Progress> progress_;
-  Stream moments_;
+  medium::RequestMoments moments_;
   std::uint64_t seed_;
 
   std::unique_ptr<Backend> backend_;

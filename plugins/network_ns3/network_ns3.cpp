@@ -8,7 +8,7 @@ namespace {
 using namespace muster;
 
 struct NetworkNs3 {
-  static constexpr auto id = "network.ns3/1";
+  static constexpr auto id = "network.ns3/2";
   static constexpr auto summary = "IEEE 802.15.4 by ns-3 3.37 (its module lr-wpan), under this world's channel";
   static constexpr auto manual =
       R"(ns-3's own radios, medium access and error model; received power is link/*/level with link/*/fading, and places
@@ -29,7 +29,7 @@ that was taken back. ns-3 holds one simulation a process: a second one is refuse
       integer("hops", 10, 1, 15, "that a frame makes; only with routing=\"mesh\""),
       flag("acknowledge", true, "messages to one receiver are acknowledged; only with routing=\"none\""),
       integer("queue", 16, 0, 1e6, "messages that may wait at a radio beside the one that it sends"),
-      external::Adaptor::spread_param,
+      medium::RequestMoments::spread_param,
   };
 
   explicit NetworkNs3(Setup& s)

@@ -8,7 +8,7 @@ using namespace muster;
 using medium::milliwatts;
 
 struct NetworkWifi {
-  static constexpr auto id = "network.wifi/2";
+  static constexpr auto id = "network.wifi/3";
   static constexpr auto summary = "IEEE 802.11g ad hoc: stations that share a channel by DCF";
   static constexpr auto manual =
       R"(Messages as frames of ERP-OFDM (IEEE 802.11-2016, clause 18) under the distributed coordination function: DIFS, EIFS and
@@ -37,7 +37,7 @@ gone + those still under way.)";
       flag("acknowledge", true, "messages to one receiver are acknowledged"),
       integer("retries", 6, 0, 255, "of a frame that was not acknowledged; only with acknowledge"),
       integer("queue", 64, 0, 1e6, "messages that may wait at a station beside the one that it sends"),
-      medium::Board::spread_param,
+      medium::RequestMoments::spread_param,
       medium::Readings::mode_param,
       medium::Readings::step_param(0.5),
       medium::Readings::least_param(-110),

@@ -2,6 +2,7 @@
 // outcomes; tests/README.md lists the rows.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -67,6 +68,25 @@ TEST_P(EachNetwork, Row19TheReceivingSideSaysFromWhomHowStrongHowWellAndWhen) {
     }
   }
   EXPECT_GE(arrived, 18);
+}
+
+TEST_P(EachNetwork, Row19AFurtherSenderMovesNoRequestOfAnother) {
+  const auto moments = [&](const std::string& senders) {
+    Simulation sim = world(senders);
+    std::set<double> sent;
+    for (int tick = 0; tick < 40; ++tick) {
+      sim.step();
+      const TableView inbox = sim.table("inbox/*/message");
+      for (std::size_t i = 0; i < inbox.rows(); ++i) {
+        if (inbox.at(i, from) == 3) sent.insert(inbox.at(i, t_sent));
+      }
+    }
+    return sent;
+  };
+  const std::string of_d = send("s2", "d", "to=\"a\"");
+  const std::set<double> alone = moments(of_d), beside = moments(send("s1", "a", "to=\"c\"") + of_d);
+  EXPECT_GE(beside.size(), 20u);
+  EXPECT_TRUE(std::includes(alone.begin(), alone.end(), beside.begin(), beside.end()));
 }
 
 TEST_P(EachSharedChannel, Row19LinkQualityFallsWithDistance) {
