@@ -10,7 +10,7 @@ namespace {
 using namespace muster;
 
 struct Drift {
-  static constexpr auto id = "effect.drift/1";
+  static constexpr auto id = "effect.drift/2";
   static constexpr auto summary = "levels drift with time, steadily or until they settle";
   static constexpr auto manual =
       "Adds rate x s (1 - exp(-u / s)), u being the time since `start` (0 before it) and s = settling: steady for "

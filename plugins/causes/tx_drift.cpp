@@ -10,7 +10,7 @@ namespace {
 using namespace muster;
 
 struct TxDrift {
-  static constexpr auto id = "effect.tx_drift/1";
+  static constexpr auto id = "effect.tx_drift/2";
   static constexpr auto summary = "what a radio sends drifts with time, steadily or until it settles";
   static constexpr auto manual =
       "Adds rate x s (1 - exp(-u / s)), u being the time since `start` (0 before it) and s = settling: steady for "

@@ -129,7 +129,8 @@ struct ControlNavigate {
   void take_station(Setup& s) {
     if (s.param("station") < 0) throw BadInput("has rssi and no station; expected station=\"RADIO\", a column of it");
     station = s.host()->row_name(s.host(), "radio", static_cast<uint32_t>(s.param("station")));
-    const std::string columns = "x[m] y[m] " + station + "[dBm]?";
+    column = station == "x" || station == "y" ? "rssi_" + station : station;  // as muster map writes it
+    const std::string columns = "x[m] y[m] " + column + "[dBm]?";
     const int claimed = s.host()->file(s.host(), "rssi", columns.c_str());
     if (claimed < 0) throw std::runtime_error("");  // the kernel has the message
     levels = In<RssiPlace>{claimed};
@@ -179,7 +180,7 @@ struct ControlNavigate {
     if (!levels || rssi) return true;
     rssi = RssiMap(k[*levels]);
     if (!rssi->any_received())
-      throw BadInput("the table of rssi has no value in a column " + station +
+      throw BadInput("the table of rssi has no value in a column " + column +
                      "[dBm]; expected that of muster map --from " + station);
     return true;
   }
@@ -375,7 +376,7 @@ struct ControlNavigate {
   std::optional<TableRows> goal_rows, road_rows;
   std::optional<In<Scan>> scan;
   std::optional<In<RssiPlace>> levels;
-  std::string robot, station;
+  std::string robot, station, column;  // column: that of the station in the table of levels
   // Kept between ticks, and the same from the same inputs.
   std::optional<roadmap::Map> map;
   std::string map_bytes;

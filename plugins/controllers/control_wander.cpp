@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <muster/plugin.hpp>
+#include <muster/printed.hpp>
+#include <string>
 
 namespace {
 
@@ -37,7 +39,8 @@ struct ControlWander {
   static void check(double slowest, double fastest, double period, double ramp) {
     if (slowest > fastest) throw BadInput("attribute \"slowest\": is above \"fastest\"; expected at most that");
     if (ramp > period)  // a command would jump on its way, to the next draw
-      throw BadInput("attribute \"ramp\": is above \"period\"; expected at most that");
+      throw BadInput("attribute \"ramp\": " + printed(ramp) + " s is above the period of " + printed(period) +
+                     " s; expected at most that");
   }
 
   void step(const Step& k) const {

@@ -29,7 +29,7 @@ std::string seconds_text(double seconds) {
 }
 
 struct SensorsLaser {
-  static constexpr auto id = "sensors.laser/2";
+  static constexpr auto id = "sensors.laser/3";
   static constexpr auto summary = "what the lasers on robots see: walls, doors, the ground, other robots";
   static constexpr auto manual =
       "Each <sensor> with a <ray> of a robot's model scans at its rate, or once a tick where that is slower; a scan "
@@ -228,7 +228,7 @@ struct SensorsLaser {
       beside.max_angle += off;
       const auto ranges = rays_seen(k, self, laser_pose, beside, walls);
       for (std::size_t i = 0; i < sum.size(); ++i) {
-        if (!(ranges[i] <= laser.max_range)) continue;
+        if (!(ranges[i] <= reach_with_errors(k, laser))) continue;
         sum[i] += ranges[i];
         ++hits[i];
       }
@@ -240,8 +240,7 @@ struct SensorsLaser {
 
   std::vector<double> rays_seen(const Step& k, std::size_t self, const Isometry3d& laser_pose,
                                 const description::Laser& laser, const std::vector<Solid>& walls) const {
-    // Includes hits that noise or a bias may bring within its range.
-    Fan fan(laser, laser.max_range + 6 * deviation(k, laser.max_range) + most_shortened(k));
+    Fan fan(laser, reach_with_errors(k, laser));
     const Isometry3d world = laser_pose.inverse();
     for (const Solid& solid : walls) fan.meet(solid, world);
     fan.meet_ground(laser_pose.translation().z(), -world.linear().col(2));
@@ -292,6 +291,11 @@ struct SensorsLaser {
     if (laser.resolution > 0 && std::isfinite(range)) range = laser.resolution * std::round(range / laser.resolution);
     if (range < laser.min_range) return -infinite;
     return range > laser.max_range ? infinite : range;
+  }
+
+  // Includes hits that noise or a bias may bring within its range.
+  double reach_with_errors(const Step& k, const description::Laser& laser) const {
+    return laser.max_range + 6 * deviation(k, laser.max_range) + most_shortened(k);
   }
 
   double deviation(const Step& k, double range) const {

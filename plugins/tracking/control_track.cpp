@@ -21,7 +21,7 @@ using tracking::Told;
 using tracking::Vector2;
 
 struct ControlTrack {
-  static constexpr auto id = "control.track/2";
+  static constexpr auto id = "control.track/3";
   static constexpr auto summary = "follows a target down a navigation function that may keep the link to a base";
   static constexpr auto manual =
       "The robot drives down the navigation function of Rimon and Koditschek (1992) towards its place beside the\n"
@@ -129,6 +129,7 @@ struct ControlTrack {
     const Vector2 here{k[odometry]->x, k[odometry]->y};
     const double from_base = std::hypot(here.x - k[base_x], here.y - k[base_y]);
     if (is_first_step(k.time(), k.dt())) check_discs(k, here);
+    if (is_null(now.level) && now.heard == 0) now.heard = k.time();  // it listens from now on
     listen(k, now);
     now.reach = k[aware] != 0 ? reach(k, now, from_base) : null();
     const Sighting& seen = *k[sighting];

@@ -11,13 +11,13 @@ using namespace muster;
 using tracking::Told;
 
 struct ObserveTarget {
-  static constexpr auto id = "observe.target/2";
+  static constexpr auto id = "observe.target/3";
   static constexpr auto summary = "a base's estimate of a target from what robots tell, and its error";
   static constexpr auto manual =
       "A Kalman filter on each coordinate: place and velocity, driven by white acceleration of deviation\n"
       "`acceleration` that holds for a second, corrected by every message of control.track that arrives at `base`.\n"
       "Where none arrives it goes on straight. `error` is the distance to where the target is; it is null before the\n"
-      "first message. `heard` counts messages, `silence` is the time since the last one.";
+      "first message and where the target has left. `heard` counts messages, `silence` is the time since the last one.";
   static constexpr auto phase = MUSTER_OBSERVE;
   static constexpr Param params[] = {
       reference("base", "radio", "where messages arrive").required(),
@@ -32,7 +32,8 @@ struct ObserveTarget {
   };
 
   explicit ObserveTarget(Setup& s)
-      : acceleration(s.value("acceleration")),
+      : target(static_cast<std::size_t>(s.param("target"))),
+        acceleration(s.value("acceleration")),
         inbox(s.read<Incoming>("inbox/{base}/message")),
         pose(s.read<Pose>("robot/{target}/pose")),
         estimate(s.write<Estimate>("self/estimate")) {}
@@ -50,7 +51,8 @@ struct ObserveTarget {
       correct(now, told);
       ++now.heard, now.silence = 0;
     }
-    now.error = is_null(now.x) ? null() : std::hypot(now.x - k[pose]->x, now.y - k[pose]->y);
+    const bool is_there = k.alive("robot", target);
+    now.error = is_null(now.x) || !is_there ? null() : std::hypot(now.x - k[pose]->x, now.y - k[pose]->y);
     *k[estimate] = now;
   }
 
@@ -77,6 +79,7 @@ struct ObserveTarget {
     now.vv -= speed * now.pv, now.pv *= 1 - place, now.pp *= 1 - place;
   }
 
+  std::size_t target;
   Value acceleration;
   In<Incoming> inbox;
   In<Pose> pose;

@@ -62,7 +62,7 @@ TEST(Wander, BoundsInTheWrongOrderAndARampBeyondThePeriodAreRefused) {
   };
   EXPECT_THAT(refused("slowest=\"0.7\""), testing::HasSubstr("slowest=\"0.7\" is above fastest=\"0.6\""));
   EXPECT_THAT(refused("period=\"0.2\""),
-              testing::HasSubstr("attribute \"ramp\": is above \"period\"; expected at most that"));
+              testing::HasSubstr("attribute \"ramp\": 0.250 s is above the period of 0.200 s; expected at most that"));
   EXPECT_EQ(refused("slowest=\"0.6\" period=\"0.25\""), "");
 }
 
