@@ -28,7 +28,8 @@ const char* word_of(SetKind kind) {
 
 RunRecord::RunRecord(const Simulation& run, const std::vector<RecordDeclaration>& tables,
                      const std::filesystem::path& folder, const Library::SearchPath& plugins)
-    : folder_(folder),
+    : start_(run.time()),
+      folder_(folder),
       lock_(folder, "--out"),
       recorder_(run, tables, folder),
       scene_(run, plugins),
@@ -58,6 +59,7 @@ std::vector<viewer::RecordedTable> RunRecord::listed(const Simulation& run) cons
 }
 
 void RunRecord::complete(const Simulation& run, Json& outcome) {
+  outcome["start"] = start_;
   outcome["file"] = run.world().file.string();
   outcome["version"] = MUSTER_VERSION;
   outcome["chains"] = viewer::chains_of(run);

@@ -35,6 +35,7 @@ class RunRecord {
   std::vector<viewer::RecordedTable> listed(const Simulation& run) const;
   void complete(const Simulation& run, Json& outcome);
 
+  double start_;  // s: later than 0 in a run that goes on from a state
   std::filesystem::path folder_;
   FolderLock lock_;
   std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();

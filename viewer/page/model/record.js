@@ -10,15 +10,9 @@ export class Record {
     this.scene = head.scene;
     this.notes = [...head.run.notes ?? [], ...head.notes ?? []];
     this.tables = head.tables.map((table) => new Table(table, bytes));
-    this.first = Infinity;  // of a run that goes on from a state, its start
+    this.first = this.run.start ?? 0;  // later than 0 in a run that goes on from a state
     this.last = this.run.time;
-    for (const table of this.tables) {
-      for (const t of table.time) {
-        if (t < this.first) this.first = t;
-        if (t > this.last) this.last = t;
-      }
-    }
-    if (this.first > this.last) this.first = 0;  // nothing is recorded
+    for (const table of this.tables) for (const t of table.time) if (t > this.last) this.last = t;
     this.motions = this.find_motions();
     this.links = link_sources(this);
     this.scans = this.tables.find((table) => table.name === 'scan/*/message' && table.column('ranges')?.code.kind === 'lists');
