@@ -20,16 +20,19 @@ inline std::string read_file(const std::filesystem::path& file) {
   return text.str();
 }
 
-// Under its name when it is whole; until then one that was there stays.
+// Under its name when it is whole; until then one that was there stays. A link is followed, and a pipe written to.
 inline void write_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path part = file.string() + ".part";
+  std::error_code failed;
+  const bool is_pipe = std::filesystem::exists(file, failed) && !std::filesystem::is_regular_file(file, failed);
+  const auto whole = std::filesystem::is_symlink(file, failed) ? std::filesystem::weakly_canonical(file, failed) : file;
+  const std::filesystem::path part = is_pipe ? file : std::filesystem::path(whole.string() + ".part");
   std::ofstream out(part, std::ios::binary);
   out << text;
-  std::error_code failed;
   out.close();
-  if (out) std::filesystem::rename(part, file, failed);
+  failed.clear();
+  if (out && !is_pipe) std::filesystem::rename(part, whole, failed);
   if (out && !failed) return;
-  std::filesystem::remove(part, failed);
+  if (!is_pipe) std::filesystem::remove(part, failed);
   throw std::runtime_error("cannot write " + file.string());
 }
 
