@@ -46,6 +46,9 @@ inline constexpr std::size_t most_powers = 32;
 inline constexpr double least_span_of_powers = 6;
 // readings; for each power; chosen; none
 inline constexpr long readings_a_power = 10;
+// share; of the readings that may be lost up to the distance to which levels are compared; chosen;
+// SentPower.IsLookedForWhereHardlyAnyReadingIsLost
+inline constexpr double lost_of_powers = 0.05;
 // share; of the span by which levels may be off the powers, root of the mean square; chosen;
 // SentPower.ErrorsOfPowersAreNoPowers
 inline constexpr double off_the_power = 0.12;

@@ -27,6 +27,10 @@ inline constexpr double row_way = 1.0;
 inline constexpr double log_exact_variance = -5;
 // dB; change of the expected level at which a row ends; chosen; LinkRows.EndWhereAWallChangesTheLevel
 inline constexpr double row_level = 1.5;
+// share; of readings that are lost, and more where less is expected, from which no cause is sure; chosen; none
+inline constexpr double biased_share = 0.2;
+// m; by which a radio must climb for what follows heights to be seen; chosen; none
+inline constexpr double least_climb = 0.3;
 // m; within which a transmitter is heard at one place; chosen; none
 inline constexpr double one_receiver_place = 0.1;
 // readings; most of a usual row where none has a time; chosen; LinkRowLimits.KeepReadingsWithoutATimeApart
@@ -276,10 +280,17 @@ inline constexpr uint64_t law_draws = 19;
 // factor; by which the evidence of a law, or of a floor that a log ends at, must exceed that in each draw; chosen;
 // SimulatedDraws.AFieldThatEndsIsNoFloor
 inline constexpr double beyond_drawn = 1.5;
+// times; the deviation of all readings about the fitted world, beyond which a field is none that they show; chosen;
+// none
+inline constexpr double widest_field = 2;
 // draws; of the world, over which a fitted field scatters; chosen; none
 inline constexpr int field_draws = 12;
 // probability; of the fitted field among those of the world's draws, below which it is another; chosen; none
 inline constexpr double alike_field = 0.01;
+// share; of the readings, which the world's receiver must hear of a draw for its field to be compared; chosen; none
+inline constexpr double heard_of_a_draw = 0.9;
+// lambda; of a law in readings of one direction, for them to tell its numbers; derived; none
+inline constexpr double numbers_of_one_direction = 7.7;
 // lambda; from which the weaker of a fading law and a field is beyond doubt; chosen; none
 inline constexpr double second_law_lambda = 30;
 // probability; of a cause or a dependence that is not found, beside which another field is in doubt; chosen;

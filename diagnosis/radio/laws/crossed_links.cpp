@@ -7,7 +7,6 @@
 
 #include "diagnosis/radio/laws/blockage_test.hpp"
 #include "diagnosis/radio/laws/standing_links_test.hpp"
-#include "diagnosis/radio/laws/testable_readings.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -55,7 +54,7 @@ Crossed add_blockage(const LawSources& s, const VectorXd& residual, Diagnosis& f
     add_tested(causes, s.data.t.empty() ? "not testable: the data have no t" : "", found);
     return stated && stated->all ? *stated : Crossed();
   }
-  const WalkersTest walkers = walkers_test(s.readings, without_second_twins(s.readings, s.state.rows(), residual));
+  const WalkersTest walkers = walkers_test(s.readings, residual);
   if (!walkers.test.values.empty() && walkers.test.values.front().value > thresholds::least_walker_loss &&
       beyond_chance(walkers.test, thresholds::law_alpha)) {
     add_tested(causes, "", found);

@@ -286,9 +286,17 @@ WalkersTest walkers_test(const LinkReadings& readings, const VectorXd& residual)
   WalkersTest result;
   if (readings.t.empty()) return result;
   const Network network(readings, residual);
+  // Of two readings that share their scatter, too, one counts.
+  const auto counts_twice = [&](Index i) {
+    const auto k = static_cast<std::size_t>(i);
+    return !readings.twin.empty() && readings.tx[k] > readings.rx[k] && readings.twin[k] >= 0 &&
+           std::isfinite(residual[readings.twin[k]]);
+  };
   std::vector<OfLink> links;
   std::map<std::pair<int, int>, Ordered> both_ways;
-  for (const Link& link : network.links()) {
+  for (Link link : network.links()) {
+    std::erase_if(link.readings, counts_twice);
+    if (link.readings.size() < thresholds::fewest_link_rows) continue;
     const OfLink one = of_link(network, link);
     if (one.next.pairs == 0 || one.second.pairs == 0 || one.ordered.fast_variance == 0) continue;
     links.push_back(one);

@@ -12,6 +12,7 @@ struct WalkersTest {
 
 // People who walk about change the level of one link after the other, each for as long as they are near it: successive
 // readings of a link are then off together. `residual`: dB, of each reading; NaN takes no part.
+// Both directions of a link tell what its radios share, but of a pair of twins one reading counts.
 //
 // - What readings share with those of other links of the same radio at that moment is the radio's, and is taken off:
 //   a link takes part where each of its radios has three others.

@@ -124,6 +124,33 @@ TEST(WalkersTest, ADoorBesideOneLinkIsNoWalker) {
   }
 }
 
+// Both directions at one time with one scatter, as the two halves of an exchange of messages are.
+TEST(WalkersTest, TwinsCountOnceAndTellBothWhatTheirRadiosShare) {
+  LinkReadings r = network();
+  constexpr Eigen::Index in_round = nodes * (nodes - 1);
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const int tx = r.tx[k], rx = r.rx[k];
+    r.twin.push_back(i / in_round * in_round + rx * (nodes - 1) + (tx < rx ? tx : tx - 1));
+    r.t[k] -= 0.05 * tx;
+  }
+  const auto halves = [&](Eigen::VectorXd off) {
+    for (Eigen::Index i = 0; i < r.size(); ++i) {
+      const Eigen::Index other = r.twin[static_cast<std::size_t>(i)];
+      if (other < i) off[i] = off[other];
+    }
+    return off;
+  };
+  int named = 0;
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    const WalkersTest walkers = walkers_test(r, halves(crossed(r, seed, 6, 0.15)));
+    EXPECT_EQ(walkers.links, nodes * (nodes - 1) / 2);
+    EXPECT_TRUE(told(walkers)) << seed;
+    named += told(walkers_test(r, halves(crossed(r, seed, 0, 0))));
+  }
+  EXPECT_EQ(named, 0);
+}
+
 TEST(WalkersTest, LinksOfAWalkTakeNoPart) {
   LinkReadings r = network();
   for (Eigen::Index i = 0; i < r.size(); ++i) {
