@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/radio/causes/place_grid.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "text/number.hpp"
 
@@ -184,6 +185,21 @@ std::string doubt_at_own_bound(const CauseEstimate& cause) {
                          print_real(bound) + (v.unit.empty() ? "" : ' ' + v.unit));
   }
   return "";
+}
+
+std::string doubt_by_map(const CauseShape& shape, const CauseEstimate& cause, const LinkModel& model) {
+  if (shape.cause.meaning().kind != MUSTER_WORLD_EDIT || shape.place != PlaceShape::point) return "";
+  const auto mapped = place_of_radio(model, cause.row);
+  if (!mapped) return "";
+  for (std::size_t k = 0; k < shape.coordinates.size(); ++k) {
+    const double at = (*mapped)[static_cast<Index>(k)];
+    const bool holds = std::any_of(cause.values.begin(), cause.values.end(), [&](const CauseValue& v) {
+      return v.name == shape.coordinates[k] && v.lower95 <= at && at <= v.upper95;
+    });
+    if (!holds) return "";
+  }
+  return fmt::format("the place on the map, ({:.2f} m, {:.2f} m), lies within the intervals of the fitted one",
+                     (*mapped)[0], (*mapped)[1]);
 }
 
 }  // namespace muster::diagnosis

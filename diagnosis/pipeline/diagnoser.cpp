@@ -102,8 +102,11 @@ Diagnosis Diagnoser::run(const Diagnosis* given, bool by_itself) {
   for (const auto* more : {&setup_.sought.not_tested, &setup_.observed.untested})
     out.not_tested.insert(out.not_tested.end(), more->begin(), more->end());
   const LinkReadings& readings = setup_.layout->readings();
-  if (!(readings.rx_yaw.empty() && readings.tx_yaw.empty()) && !moving_ends(readings).headings_known())
-    out.not_tested.emplace_back("heading: of some readings the data give only that of the radio that moves less");
+  if (const MovingEnds moving = moving_ends(readings);
+      !(readings.rx_yaw.empty() && readings.tx_yaw.empty()) && moving.known_headings() < 1)
+    out.not_tested.push_back(fmt::format(
+        "heading: of {:.0f} % of the readings the data give only that of the radio that moves less{}",
+        std::ceil(100 * (1 - moving.known_headings())), moving.headings_known() ? "; the others are looked at" : ""));
   return watch_.stop() ? interrupted(std::move(out)) : out;
 }
 
@@ -115,6 +118,24 @@ OwnWorldVerdict Diagnoser::in_own_worlds(const Diagnosis& found) {
   watch_.at("checking the map and the log for mistakes");
   return judged_in_own_worlds(setup_, found);
 }
+
+namespace {
+
+// What was heard of readings that are lost the oftener the weaker they are is a biased sample of all.
+void doubt_where_lost(const MissingData& missing, Diagnosis& out) {
+  const double all = static_cast<double>(out.readings + missing.count),
+               share = static_cast<double>(missing.count) / std::max(all, 1.0);
+  if (missing.censored || !missing.rises() || share < thresholds::biased_share) return;
+  for (CauseEstimate& c : out.causes) {
+    if (c.doubt.empty())
+      c.doubt = fmt::format(
+          "{:.0f} % of the readings are lost, and more where less is expected: those that were heard "
+          "are a biased sample",
+          100 * share);
+  }
+}
+
+}  // namespace
 
 Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearch& causes,
                                const inference::ModelState& state) {
@@ -159,7 +180,9 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
     const auto [finding, candidate] = simplest(f, *cause, causes, state, coefficients);
     out.causes.push_back(cause_estimate(finding, *candidate));
     out.causes.back().sought_as = f.id;
-    out.causes.back().doubt = doubt_by_place(*candidate, f.alternatives, causes.found);
+    out.causes.back().doubt = doubt_by_map(*candidate->shape, out.causes.back(), setup_.model);
+    if (out.causes.back().doubt.empty())
+      out.causes.back().doubt = doubt_by_place(*candidate, f.alternatives, causes.found);
     out.causes.back().effect = effect_of(state, candidate->candidate, finding);
     places.push_back(places_of(*candidate->shape, finding));
     give_files(*candidate->shape, setup_.data, out.causes.back());
@@ -182,6 +205,7 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
                                   [&](const FitParameter& p) { return p.path == v.path && !p.identifiable; });
   }
   doubt_at_bounds(out);
+  doubt_where_lost(setup_.fitted.missing, out);
   return out;
 }
 

@@ -146,6 +146,7 @@ std::string covariate_in_words(const std::string& name) {
       {"logd", "distance"},
       {"bearing", "the other radio's bearing, seen from the heading of the one that moves"},
       {"heading", "the heading of the radio that moves"},
+      {"height", "the height of the radio that moves"},
       {"txbearing", "the direction from each transmitter"},
       {"position", "the place in the plan"},
       {"map", "the place in the plan"},
@@ -266,7 +267,7 @@ std::string no_gain_in_words(const std::string& held_out) {
   return "none to be seen: held-out data neither confirm nor refute it (" + held_out + ")";
 }
 
-bool is_refuted(const inference::HeldOutGain& h) { return h.upper95 < 0; }
+bool is_refuted(const inference::HeldOutGain& h) { return h.blocks >= fewest_blocks && h.upper95 < 0; }
 
 std::string loss_in_words(const std::string& held_out) {
   return "none: the error at what was held out is larger with it, beyond chance (" + held_out + ")";

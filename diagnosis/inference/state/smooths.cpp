@@ -26,10 +26,12 @@ Eigen::MatrixXd cosines(const Eigen::VectorXd& x, int functions) {
 }
 
 Eigen::MatrixXd harmonics_of(const Eigen::VectorXd& angle, int harmonics) {
+  const auto known = angle.array().isFinite().cast<double>();
+  const Eigen::ArrayXd of = angle.array().isFinite().select(angle.array(), 0);
   Eigen::MatrixXd result(angle.size(), 2 * harmonics);
   for (int j = 1; j <= harmonics; ++j) {
-    result.col(2 * j - 2) = (j * angle.array()).cos();
-    result.col(2 * j - 1) = (j * angle.array()).sin();
+    result.col(2 * j - 2) = known * (j * of).cos();
+    result.col(2 * j - 1) = (j * of).sin();
   }
   return result;
 }

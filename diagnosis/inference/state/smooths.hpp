@@ -28,6 +28,7 @@ bool is_time(std::string_view covariate);
 // Cosines over the range of x, a half-wave each; one row a value.
 Eigen::MatrixXd cosines(const Eigen::VectorXd& x, int functions);
 // Cosine and sine of each harmonic of an angle [rad].
+// Of an angle [rad]; zero where it is NaN, unknown.
 Eigen::MatrixXd harmonics_of(const Eigen::VectorXd& angle, int harmonics);
 
 // Cosines of a covariate over its range; may grow.

@@ -93,6 +93,8 @@ std::vector<Candidate> link_smooths(const LinkReadings& readings, const LinkColu
     add_directions(readings, geometry, result);
     result.push_back(inference::smooth_over("position", geometry.moving.place));
     result.push_back(inference::slope_over("position", geometry.moving.place));
+    if (geometry.moving.climb > thresholds::least_climb)
+      result.push_back(inference::smooth_of("height", geometry.moving.z, 4));
   }
   add_time(readings, geometry, places_known, result);
   result.push_back(inference::factor("link", links(readings)));

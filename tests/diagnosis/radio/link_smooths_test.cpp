@@ -59,6 +59,23 @@ TEST(LinkSmooths, OverDirectionsAreOfTransmittersThatSeeManyOnly) {
   FAIL() << "no directions";
 }
 
+TEST(LinkSmooths, FollowHeightsWhereARadioClimbs) {
+  auto world = world_of(varied(4, 400));
+  const auto follow_heights = [&] {
+    const std::vector<Candidate> all = link_smooths(world.readings, {}, true);
+    return std::any_of(all.begin(), all.end(), [](const Candidate& c) { return c.id == "~height"; });
+  };
+  EXPECT_FALSE(follow_heights());
+  LinkReadings& r = world.readings;
+  const int climber = r.rx[0];
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (r.tx[k] == climber) r.tx_at(2, i) = 0.01 * static_cast<double>(i);
+    if (r.rx[k] == climber) r.rx_at(2, i) = 0.01 * static_cast<double>(i);
+  }
+  EXPECT_TRUE(follow_heights());
+}
+
 // Time always varies: an observed column that explains as much comes before a function of time.
 TEST(LinkSmooths, OnlyThoseOfTimeAreTimeLike) {
   const auto world = world_of(varied(4, 400));

@@ -66,6 +66,13 @@ TEST(MovingEnds, HaveNoHeadingOfTheOtherEnd) {
   const MovingEnds known = moving_ends(r);
   EXPECT_TRUE(known.headings_known());
   EXPECT_EQ(known.heading, Eigen::Vector2d(0.2, -0.2));
+  EXPECT_EQ(known.climb, 0);
+  r.tx_at(2, 1) = 1.5;
+  EXPECT_EQ(moving_ends(r).climb, 1.5);
+  EXPECT_EQ(moving_ends(r).z, Eigen::Vector2d(0, 1.5));
+  r.tx_yaw[1] = std::nan("");
+  EXPECT_EQ(moving_ends(r).known_headings(), 0.5);
+  EXPECT_TRUE(moving_ends(r).headings_known());
   EXPECT_NEAR(known.bearing[0], M_PI / 4 - 0.2, 1e-12);  // from the robot to the receiver
   EXPECT_NEAR(known.bearing[1], 3 * M_PI / 4 + 0.2, 1e-12);
 }
