@@ -27,14 +27,14 @@ Eigen::VectorXd residuals(const Readings& readings, const Eigen::VectorXd& mean,
   Eigen::VectorXd result(readings.used());
   Eigen::Index k = 0;
   for (const auto i : readings.heard) result[k++] = readings.rssi[i] - mean[i];
-  for (const auto i : readings.censored) result[k++] = -sigma * hazard((readings.floor - mean[i]) / sigma);
+  for (const auto i : readings.censored) result[k++] = -sigma * hazard((readings.floor_of(i) - mean[i]) / sigma);
   return result;
 }
 
 double deviance(const Readings& readings, const Eigen::VectorXd& mean, double sigma) {
   double squares = 0, log_tail = 0;
   for (const auto i : readings.heard) squares += std::pow(readings.rssi[i] - mean[i], 2);
-  for (const auto i : readings.censored) log_tail += log_below((readings.floor - mean[i]) / sigma);
+  for (const auto i : readings.censored) log_tail += log_below((readings.floor_of(i) - mean[i]) / sigma);
   return squares / (sigma * sigma) + 2 * static_cast<double>(readings.heard.size()) * std::log(sigma) - 2 * log_tail;
 }
 
@@ -42,7 +42,7 @@ double next_sigma(const Readings& readings, const Eigen::VectorXd& mean, double 
   double squares = 0;
   for (const auto i : readings.heard) squares += std::pow(readings.rssi[i] - mean[i], 2);
   for (const auto i : readings.censored) {
-    const double z = (readings.floor - mean[i]) / sigma;
+    const double z = (readings.floor_of(i) - mean[i]) / sigma;
     squares += sigma * sigma * (1 - z * hazard(z));  // E[(y - mean)^2 | y < floor]
   }
   return std::sqrt(squares / static_cast<double>(readings.used()));

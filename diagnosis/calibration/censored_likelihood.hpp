@@ -13,7 +13,14 @@ struct Readings {
   Eigen::VectorXd rssi;                  // dBm, one a row; NaN: not received
   std::vector<Eigen::Index> heard{};     // rows
   std::vector<Eigen::Index> censored{};  // rows with a level below `floor`; none where losses are random
-  double floor = 0;                      // dBm
+  double floor = 0;                      // dBm, of what was received
+  Eigen::VectorXd referred{};            // dB, taken off each row to refer it to one power; empty: nothing was
+
+  double floor_of(Eigen::Index row) const { return referred.size() ? floor - referred[row] : floor; }
+  // Referred levels as they were received.
+  Eigen::VectorXd received(const Eigen::VectorXd& levels) const {
+    return referred.size() ? Eigen::VectorXd(levels + referred) : levels;
+  }
 
   Eigen::Index used() const { return static_cast<Eigen::Index>(heard.size() + censored.size()); }
 };

@@ -42,6 +42,8 @@ struct Search {
 Readings heard_readings(const Dataset& data) {
   Readings readings{.rssi =
                         Eigen::Map<const Eigen::VectorXd>(data.rssi.data(), static_cast<Eigen::Index>(data.rows()))};
+  readings.referred =
+      Eigen::Map<const Eigen::VectorXd>(data.referred.data(), static_cast<Eigen::Index>(data.referred.size()));
   for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
     if (!std::isnan(readings.rssi[i])) readings.heard.push_back(i);
   }
@@ -81,20 +83,53 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
                                             " to fit " + std::to_string(search.parameters.size()) + " parameters");
 }
 
+// Log-likelihood of the readings that were heard and of which were, up to a constant.
+double log_likelihood(const Readings& readings, const Eigen::VectorXd& mean, double sigma, const MissingData& missing) {
+  const Eigen::VectorXd heard = (readings.rssi - mean)(readings.heard);
+  return missing.evidence / 2 - heard.squaredNorm() / (2 * sigma * sigma) -
+         static_cast<double>(heard.size()) * std::log(sigma);
+}
+
+// A receiver's floor is one of what it received.
+MissingData missing_from(const Readings& readings, const Eigen::VectorXd& mean, double sigma) {
+  return missing_data(readings.received(readings.rssi), readings.received(mean), sigma);
+}
+
+// Fits with all missing readings below the floor.
+void fit_censored(Readings& readings, double floor, Minimum& fit, const Mean& mean, const Box& box) {
+  readings.floor = floor;
+  for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
+    if (std::isnan(readings.rssi[i])) readings.censored.push_back(i);
+  }
+  fit = least_squares(readings, mean, fit.parameters, box);
+}
+
+// Where many are lost, what was heard at low levels are the stronger ones, to which a fit of them alone is too near to
+// see the floor: it is asked for beside a fit that knows it, too.
+void censor_if_likelier(Fit& fit, const Search& search, const Mean& mean, const Box& box) {
+  if (fit.missing.censored || !fit.missing.rises()) return;
+  Readings readings = fit.readings;
+  Minimum censored = fit.least_squares;
+  const double without = log_likelihood(fit.readings, search.model.expected(), fit.least_squares.sigma, fit.missing);
+  fit_censored(readings, fit.missing.floor, censored, mean, box);
+  search.set(censored.parameters);
+  const Eigen::VectorXd expected = search.model.expected();
+  const MissingData missing = missing_from(readings, expected, censored.sigma);
+  if (missing.censored && log_likelihood(readings, expected, censored.sigma, missing) > without)
+    fit.missing = missing;
+  else
+    search.set(fit.least_squares.parameters);
+}
+
 // Fits by both methods; readings missing below a floor enter the likelihood as censored.
 void solve(Fit& fit, const Search& search) {
   const Mean mean = search.mean();
   const Box box = search.box();
   fit.least_squares = least_squares(fit.readings, mean, search.start(), box);
   search.set(fit.least_squares.parameters);
-  fit.missing = missing_data(fit.readings.rssi, search.model.expected(), fit.least_squares.sigma);
-  if (fit.missing.censored) {
-    for (Eigen::Index i = 0; i < fit.readings.rssi.size(); ++i) {
-      if (std::isnan(fit.readings.rssi[i])) fit.readings.censored.push_back(i);
-    }
-    fit.readings.floor = fit.missing.floor;
-    fit.least_squares = least_squares(fit.readings, mean, fit.least_squares.parameters, box);
-  }
+  fit.missing = missing_from(fit.readings, search.model.expected(), fit.least_squares.sigma);
+  censor_if_likelier(fit, search, mean, box);
+  if (fit.missing.censored) fit_censored(fit.readings, fit.missing.floor, fit.least_squares, mean, box);
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
   if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another local minimum: descend there as well
     fit.least_squares = least_squares(fit.readings, mean, fit.search.parameters, box);

@@ -59,6 +59,10 @@ class Scanner {
     return values;
   }
 
+  static bool is_empty(const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+  }
+
   static bool varies(const std::vector<double>& values, double least) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const double v : values) {  // an empty cell is NaN, and neither less nor more
@@ -187,7 +191,8 @@ class Scanner {
       else if (const auto values = used(column.values); varies(values, 0))
         add_number(column.name, "", values, 5);
       else
-        result_.not_tested.push_back(column.name + ": it is the same in all readings that are fitted");
+        result_.not_tested.push_back(column.name + (is_empty(values) ? ": it is empty" : ": it is the same") +
+                                     " in all readings that are fitted");
     }
   }
 

@@ -140,8 +140,11 @@ void refer_to_one_power(Dataset& data) {
     readings.link.push_back(data.tx.level[i] * data.rx.levels.size() + data.rx.level[i]);
   const auto sent = followed_power(readings);
   if (!sent) return;
-  for (std::size_t i = 0; i < data.rows(); ++i)
-    if (std::isfinite(power->values[i])) data.rssi[i] -= power->values[i] - sent->middle;
+  data.referred.assign(data.rows(), 0);
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    if (std::isfinite(power->values[i])) data.referred[i] = power->values[i] - sent->middle;
+    data.rssi[i] -= data.referred[i];
+  }
   data.notes.push_back("levels rise by " + print_real(std::round(100 * sent->rise) / 100) + " dB for each dB of " +
                        quote(power->name) + ": they are what was received, and are referred to a power of " +
                        print_real(sent->middle) + " dBm, the middle of those set");

@@ -33,6 +33,7 @@ struct Dataset {
   std::string reading{};                   // name of its column: rssi, or path_loss
   std::vector<Covariate> covariates{};     // all further columns that vary
   std::vector<std::string> notes{};        // oddities that are no errors
+  std::vector<double> referred{};          // dB, taken off each reading to refer it to one power; empty: nothing was
 
   std::size_t rows() const { return rssi.size(); }
   bool has_places() const { return !tx_at.empty(); }

@@ -15,6 +15,23 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Distance [m] within which hardly any reading is lost. Beyond it those of a low power that are heard are the stronger
+// ones, which hides how levels rise with the power.
+double lossless_reach(const PoweredReadings& readings) {
+  std::vector<std::pair<double, bool>> lost;  // by distance
+  for (std::size_t i = 0; i < readings.level.size(); ++i) {
+    if (std::isfinite(readings.power[i]) && readings.distance[i] > 0)
+      lost.emplace_back(readings.distance[i], std::isnan(readings.level[i]));
+  }
+  std::sort(lost.begin(), lost.end());
+  double reach = 0, count = 0, missing = 0;
+  for (const auto& [distance, is_lost] : lost) {
+    count += 1, missing += is_lost;
+    if (missing <= thresholds::lost_of_powers * count) reach = distance;
+  }
+  return reach;
+}
+
 // Heard readings of known power, with the mean of each link taken out.
 struct WithinLinks {
   std::vector<double> powers;  // that were set, rising
@@ -24,9 +41,12 @@ struct WithinLinks {
 
 std::optional<WithinLinks> within_links(const PoweredReadings& readings) {
   WithinLinks result;
+  const double reach = lossless_reach(readings);
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < readings.level.size(); ++i) {
-    if (!std::isfinite(readings.level[i]) || !std::isfinite(readings.power[i]) || !(readings.distance[i] > 0)) continue;
+    if (!std::isfinite(readings.level[i]) || !std::isfinite(readings.power[i]) || !(readings.distance[i] > 0) ||
+        readings.distance[i] > reach)
+      continue;
     rows.push_back(i);
     result.powers.push_back(readings.power[i]);
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/pipeline/diagnoser.hpp"
 #include "diagnosis/pipeline/extended_world.hpp"
 #include "diagnosis/pipeline/first_cause.hpp"
@@ -37,6 +38,27 @@ bool is_worse(const Diagnosis& out, const Diagnosis& found) {
   return inference::compared(both).upper95 < 0;
 }
 
+// The same cause named once more, in the world put right for it.
+std::vector<CauseEstimate>::iterator rest_of(const CauseEstimate& cause, Diagnosis& out) {
+  return std::find_if(out.causes.begin() + 1, out.causes.end(), [&](const CauseEstimate& c) {
+    return c.status == inference::Status::named && c.id == cause.id && c.label == cause.label;
+  });
+}
+
+// Both are one. What the readings leave open of the rest they tell of the whole, but for what both leave open.
+void add_rest(const CauseEstimate& rest, CauseEstimate& cause) {
+  cause.values = rest.values;
+  std::erase_if(cause.alternatives, [&](const inference::Alternative& a) {
+    return std::none_of(rest.alternatives.begin(), rest.alternatives.end(),
+                        [&](const inference::Alternative& b) { return a.id == b.id && a.label == b.label; });
+  });
+  cause.inflation = std::max(cause.inflation, rest.inflation);
+  cause.evidence += rest.evidence;
+  cause.log_p = inference::log_p_of_both(cause.log_p, rest.log_p);
+  cause.lambda += rest.lambda;
+  if (cause.effect.size() == rest.effect.size()) cause.effect += rest.effect;
+}
+
 struct Diagnosed {
   std::filesystem::path world, data;
   Library::SearchPath plugins;
@@ -60,9 +82,10 @@ struct Diagnosed {
   }
 
   // In the world put right for the first cause of `first`. Where the same is found there again, such as a radio that is
-  // not where it was put, in the world put right for all at once.
+  // not where it was put, in the world put right for all at once, if that comes nearer.
   Diagnosis put_right(Diagnosis first, const Diagnosis& found) const {
-    constexpr int most = 3;  // each time it comes nearer by far
+    constexpr int most = 3;
+    std::optional<Diagnosis> before;
     for (int times = 1;; ++times) {
       CauseEstimate& cause = first.causes[0];
       const TemporaryFolder folder;
@@ -70,18 +93,20 @@ struct Diagnosed {
           Diagnoser(write_extended_world(first, world, folder.path()), data, plugins, tables, watch, {found.mean, end})
               .run(&first);
       keep_notes_of_given(world, found, folder.path(), out);
-      if (times == most || watch.stop() || cause.values.empty()) return out;
-      const auto better = std::find_if(out.causes.begin() + 1, out.causes.end(), [&](const CauseEstimate& c) {
-        return c.status == inference::Status::named && c.id == cause.id && c.label == cause.label;
-      });
-      if (better == out.causes.end()) return out;
-      cause.values = better->values;
-      cause.alternatives = better->alternatives;
-      cause.doubt = better->doubt;
-      cause.inflation = std::max(cause.inflation, better->inflation);
-      cause.evidence += better->evidence;
-      cause.log_p += better->log_p;
-      cause.lambda += better->lambda;
+      if (watch.stop() || cause.values.empty()) return out;
+      if (before && is_worse(out, *before)) {
+        before->causes.erase(rest_of(cause, *before));
+        return std::move(*before);
+      }
+      const auto rest = rest_of(cause, out);
+      if (rest == out.causes.end()) return out;
+      if (times == most) {
+        add_rest(*rest, out.causes[0]);
+        out.causes.erase(rest);
+        return out;
+      }
+      add_rest(*rest, cause);
+      before = std::move(out);
     }
   }
 };

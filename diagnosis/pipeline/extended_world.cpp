@@ -118,7 +118,8 @@ bool keep_paths(XMLElement& element, const fs::path& folder, const fs::path& cop
     const fs::path path(value);
     if (value.empty() || path.is_absolute()) continue;
     // Above the folder of the copy lies what is none of the world's, whatever it is called.
-    if (*path.lexically_normal().begin() != ".." && fs::exists(copy / path, none)) continue;
+    const bool is_copied = *path.lexically_normal().begin() != ".." && fs::exists(copy / path, none);
+    if (is_copied && !fs::is_directory(copy / path, none)) continue;
     if (path.has_parent_path() || name == "packages") keep(name, folder / path);
     if (name == "model") keep(name, folder / "models" / path) || keep(name, folder / "models" / (value + ".urdf"));
   }

@@ -19,7 +19,8 @@ std::string doubt_by_place(const CauseCandidate& cause, const std::vector<infere
   };
   std::vector<std::string> places;
   for (const inference::Alternative& a : alternatives) {
-    if (a.separability < inference::thresholds::inseparable && is_place(a.id))
+    if (a.separability < inference::thresholds::inseparable && a.by_readings < inference::thresholds::open_nats &&
+        is_place(a.id))
       places.push_back(a.id.substr(a.id.find('.') + 1) + ' ' + a.label);
   }
   if (places.empty()) return "";

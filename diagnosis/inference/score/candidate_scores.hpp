@@ -22,7 +22,8 @@ struct ScoredCandidate {
   Eigen::MatrixXd columns;
   double gain, evidence, log_p;
   bool refined = false;
-  Eigen::VectorXd all;  // the gain of every atom
+  Eigen::VectorXd all;   // the gain of every atom
+  double inflation = 1;  // in draws of the model, where it was compared with them
 
   const Candidate& candidate() const { return *entry->candidate; }
 };

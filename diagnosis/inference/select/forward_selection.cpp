@@ -279,6 +279,7 @@ void enter_as_stated(ModelState& state, const ScoredCandidate& lead) {
             gain,
             state.evidence(c, gain, lead.columns.cols(), false),
             lead.log_p};
+  term.inflation = lead.inflation;
   term.as_stated = true;
   take(state, fit, term);
   refine_again(state, state.terms.size() - 1);

@@ -37,12 +37,14 @@ double nats_behind(const ModelState& state, const Eigen::VectorXd& y, const Eige
   return stated.value - std::min(value_from(state.fit.covariance), value_from(stated.covariance));
 }
 
-// True if draws of the model, whose field is the stated one, are as far behind. Where nothing blurs the readings, a few
-// waves are smoother than their covariance says, and the likelihood, which looks at neighbours, prefers another one by
-// far; the levels of whole stations scatter as stated all the same.
+// Where nothing blurs the readings, a few waves are smoother than their covariance says, and the likelihood, which
+// looks at neighbours, prefers another one by far; the levels of whole stations scatter as stated all the same.
+bool is_unblurred(const ModelState& state) {
+  return state.field().sites().stated && state.fit.covariance.reading_variance() < thresholds::unblurred_variance;
+}
+
+// True if draws of the model, whose field is the stated one, are as far behind. Costs many fits.
 bool draws_are_behind(const ModelState& state, const Eigen::MatrixXd& both, double behind) {
-  if (!state.field().sites().stated || state.fit.covariance.reading_variance() >= thresholds::unblurred_variance)
-    return false;
   return within_draws(state, state.problem().stated, behind, [&](const Eigen::VectorXd& y) {
     return nats_behind(state, y, both, fitted_as_stated(state, y, both)[0]);
   });
@@ -55,12 +57,13 @@ bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& design, co
                       const noise::Fit& stated, double threshold, ScoredCandidate& lead) {
   const double behind = nats_behind(state, state.y(), both, stated);
   if (behind <= thresholds::stated_field_nats) return true;
-  if (!draws_are_behind(state, both, behind)) return false;
+  if (!is_unblurred(state)) return false;
   const Candidate& c = lead.candidate();
   const WhitenedModel model = state.whitened_model(design, stated.covariance);
-  lead.gain /= drawn_inflation(state, model, c, state.problem().stated);
+  lead.inflation = drawn_inflation(state, model, c, state.problem().stated);
+  lead.gain /= lead.inflation;
   lead.log_p = std::max(lead.log_p, state.log_p(c, lead.gain, c.design.width, false) + model.skew_charge(lead.columns));
-  return lead.log_p < threshold;
+  return lead.log_p < threshold && draws_are_behind(state, both, behind);
 }
 
 // Significant slow candidates, the likeliest first.

@@ -15,6 +15,8 @@ double log_tail(double gain, double freedom) {
   return (a - 1) * std::log(x) - x - std::lgamma(a) + std::log(sum);
 }
 
+double log_p_of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
+
 double skew_charge(double z, double skewness) {
   if (skewness < 0.01 || z <= 0 || z > 20) return 0;
   const double shape = 4 / (skewness * skewness);

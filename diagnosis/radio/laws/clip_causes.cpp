@@ -32,8 +32,9 @@ double level_of(const Instance& instance) {
   return instance.params()[static_cast<std::size_t>(at)];
 }
 
-// True if an instance of the world already clips there.
+// True if an instance of the world already clips there, or keeps silent even above.
 bool clips_at(const LawSources& s, uint32_t side, bool silent, double level, double step) {
+  if (const auto stated = silent_below(s.model.simulation()); silent && stated && level <= *stated) return true;
   const auto& all = s.model.simulation().instances();
   return std::any_of(all.begin(), all.end(), [&](const auto& instance) {
     return acts(instance->plugin(), side, silent) &&
@@ -87,9 +88,6 @@ void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step,
            {causes.front()->id, {}, -2 * pile.log_p, -pile.log_p, pile.log_p}, found);
 }
 
-// Fisher's combination of two independent tests.
-double of_both(double log_p, double other) { return log_p + other + std::log1p(-log_p - other); }
-
 // True if the world's own receiver hears nothing that is about as weak: a reading in a shadow that is deeper than the
 // model knows is lost to that. Only where levels also end abruptly is the floor another one.
 bool lost_below_the_stated_floor(const LawSources& s, double floor) {
@@ -109,7 +107,7 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   const double gain = independent * missing.evidence;
   LawTest test{"", {}, gain, gain / 2, inference::log_tail(gain, 1)};
   if (missing.cut_off && !missing.censored)
-    test.log_p = of_both(test.log_p, independent * std::log(std::max(missing.none_below, 1e-300)));
+    test.log_p = inference::log_p_of_both(test.log_p, independent * std::log(std::max(missing.none_below, 1e-300)));
   if (causes.empty() || !(missing.censored || missing.cut_off) || test.log_p > least) return false;
   if (clips_at(s, MUSTER_BELOW, true, missing.floor, step)) return false;
   if (!missing.cut_off && lost_below_the_stated_floor(s, missing.floor)) return false;
@@ -241,7 +239,9 @@ bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& fo
   const VectorXd& rssi = s.fit.readings.rssi;
   const Eigen::Array<bool, Eigen::Dynamic, 1> heard = !rssi.array().isNaN();
   const double squares = heard.select((rssi - mean).array().square(), 0).sum();
-  return add_silence(s, missing_data(rssi, mean, std::sqrt(squares / static_cast<double>(heard.count()))), found);
+  const double sigma = std::sqrt(squares / static_cast<double>(heard.count()));
+  const Readings& readings = s.fit.readings;
+  return add_silence(s, missing_data(readings.received(rssi), readings.received(mean), sigma), found);
 }
 
 }  // namespace muster::diagnosis

@@ -33,6 +33,9 @@ KrigedReadings kriged(const LawSources& s, const VectorXd& residual) {
 // more than a normal one.
 bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, const ReadingDistribution& likeliest,
                         const VectorXd& residual, const LawTest& law, const Diagnosis& found) {
+  if (drawn_field(s.model).shadowing <= 0) return false;  // it draws nothing that bends
+  auto laws = laws_of_causes(s);                          // the null of a law is every one that could replace another
+  std::erase_if(laws, [&](const auto& one) { return one->id() != law.cause && !one->replaces(); });
   for (uint64_t k = 0; k < thresholds::law_draws; ++k) {
     const WorldDraw draw = s.draws.draw(k, found.parameters, {});
     const Stream noise(combined(key_of("noise of a draw"), k));
@@ -40,7 +43,7 @@ bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, 
     for (Index i = 0; i < error.size(); ++i) error[i] += likeliest.noise * noise.normal(static_cast<uint64_t>(i));
     KrigedReadings field = kriged(s, error);
     const LawTests drawn =
-        law_tests(field, found.receiver.step, laws_of_causes(s), stated, s.state.fit.covariance, unsure(s, error));
+        law_tests(field, found.receiver.step, laws, stated, s.state.fit.covariance, unsure(s, error));
     for (const LawTest& test : drawn.tests)
       if (test.cause == law.cause && test.evidence * thresholds::beyond_drawn > law.evidence) return true;
   }
@@ -94,13 +97,17 @@ Eigen::Vector2d shape_of(const LawSources& s, const noise::Covariance& covarianc
 }
 
 // True if the fitted field is one of those that rows of the world's own draws yield: Hotelling's T^2 of one more draw.
+// Or if nobody can tell, since the draws are too weak to be heard.
 bool world_draws_alike(const LawSources& s, const Diagnosis& found) {
   constexpr int n = thresholds::field_draws;
   Eigen::Matrix2Xd shapes(2, n);
   for (int k = 0; k < n; ++k) {
     const WorldDraw draw = s.draws.draw(static_cast<uint64_t>(k), found.parameters, {});
     VectorXd error = (draw.drawn - draw.expected)(s.used);
-    error = error.array().isFinite().select(error, 0);  // what a draw does not hear
+    const auto heard = error.array().isFinite();
+    if (static_cast<double>(heard.count()) < thresholds::heard_of_a_draw * static_cast<double>(error.size()))
+      return true;
+    error = heard.select(error, 0).eval();
     shapes.col(k) = shape_of(s, fitted_to(s.state, s.state.rows().mean(error)));
   }
   const Eigen::Vector2d mean = shapes.rowwise().mean(), away = shape_of(s, s.state.fit.covariance) - mean;
@@ -127,7 +134,7 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
   test.values[1].name = draw.distance;
   // The field needs two tests to agree (shadowing_test.hpp).
   if (!beyond_chance(test, thresholds::field_alpha) || test.evidence < thresholds::least_field ||
-      world_draws_alike(s, found))
+      test.values[0].value > thresholds::widest_field * found.residual_sd || world_draws_alike(s, found))
     return;
   CauseEstimate& named = add_named(s, causes, test, found);
   named.doubt = doubt_of_field(found, named);
@@ -164,7 +171,7 @@ void add_scatter_of_means(const LawSources& s, const ReadingDistribution& stated
   std::erase_if(laws, [&](const auto& law) { return law->id() != named.id; });
   const LawTests tests =
       law_tests(field_of_each, found.receiver.step, laws, stated, s.state.fit.covariance, unsure(s, each));
-  if (!tests.tests.empty() && tests.tests.front().gain > 0)
+  if (!tests.tests.empty() && tests.tests.front().gain > thresholds::numbers_of_one_direction)
     named.values = values_of(s, tests.tests.front());
   else
     found.notes.push_back("the numbers of " + named.id +
@@ -180,8 +187,12 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& both_ways, std::s
   ReadingDistribution stated = stated_law(s.model);
   VectorXd anew = stated.base.law ? drawn_anew(s, stated.base, all) : all;
   std::string of_base = stated.base.law ? "" : "not testable: no plugin of the world states a law of readings";
-  if (stated.base.law && tested(anew) < thresholds::fewest_law_readings && repeat_places(s.readings)) {
-    of_base = why_not(s, anew);  // one draw a link belongs to the field; what single readings do beside it is testable
+  // One draw a link or a place belongs to the field; what single readings do beside it is testable.
+  const bool is_of_places = tested(anew) < tested(all) && noise::fixed_share(s.state.fit.covariance.family) > 0 &&
+                            repeated(s.readings) >= thresholds::fewest_law_readings;
+  if (stated.base.law &&
+      (is_of_places || (tested(anew) < thresholds::fewest_law_readings && repeat_places(s.readings)))) {
+    of_base = is_of_places ? shared : why_not(s, anew);
     stated.base = {};
     anew = all;
   }

@@ -75,7 +75,8 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
     const auto near = [&](const std::optional<Clip>& clip, double side) {
       return clip && side * (clip->level - mean) < reach;
     };
-    const bool lost = s.fit.missing.censored && mean - s.fit.missing.floor < reach;
+    const bool lost =
+        s.fit.missing.censored && mean - s.fit.readings.floor_of(s.used[static_cast<std::size_t>(i)]) < reach;
     if (lost || near(found.receiver.top, 1) || near(found.receiver.bottom, -1)) result[i] = std::nan("");
   }
   return result;
@@ -109,7 +110,7 @@ VectorXd drawn_anew(const LawSources& s, const LawPart& law, VectorXd residual) 
   return residual;
 }
 
-bool repeat_places(const LinkReadings& r) {
+Index repeated(const LinkReadings& r) {
   std::map<std::pair<int, int>, Index> last;  // by link
   Index repeated = 0;
   for (Index i = 0; i < r.size(); ++i) {
@@ -120,7 +121,11 @@ bool repeat_places(const LinkReadings& r) {
         !first && (r.rx_at.col(i) - r.rx_at.col(before)).norm() + (r.tx_at.col(i) - r.tx_at.col(before)).norm() <
                       thresholds::repeats_within;
   }
-  return static_cast<double>(repeated) > thresholds::repeated_share * static_cast<double>(r.size());
+  return repeated;
+}
+
+bool repeat_places(const LinkReadings& r) {
+  return static_cast<double>(repeated(r)) > thresholds::repeated_share * static_cast<double>(r.size());
 }
 
 std::string why_not(const LawSources& s, const VectorXd& residual) {

@@ -29,6 +29,8 @@ Eigen::VectorXd without_link(const LawSources& sources, const std::set<std::stri
 // True where nearly all readings of a link are of one place, as those of a standing network: what is drawn by place is
 // the same in all of them.
 bool repeat_places(const LinkReadings& readings);
+// How many readings are of the place of the one before of their link.
+Eigen::Index repeated(const LinkReadings& readings);
 std::vector<Eigen::Index> in_order_of_time(const LinkReadings& readings);
 // Reason why single readings are not testable; empty if they are.
 std::string why_not(const LawSources& sources, const Eigen::VectorXd& residual);

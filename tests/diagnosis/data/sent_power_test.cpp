@@ -17,6 +17,7 @@ struct Readings {
   std::vector<double> powers;                       // dBm, set in turn
   std::function<double(std::size_t power)> beside;  // dB, of each beside path loss and scatter
   bool is_set_once = false;                         // each radio to a power of its own
+  double floor = -1000;                             // dBm, below which a reading is lost
 };
 
 // Two radios that drive away from a third; a path loss of 2.5, and a scatter of 3 dB.
@@ -28,9 +29,10 @@ Dataset read(const Readings& readings) {
   for (std::size_t i = 0; i < 400; ++i) {
     const std::size_t radio = i % 2, power = readings.is_set_once ? radio : i / 2 % readings.powers.size();
     const double x = 1 + 0.1 * static_cast<double>(i);
-    text << i << ',' << (radio ? "b" : "a") << ",base," << x << ",0,0,0,"
-         << -40 - 25 * std::log10(x) + readings.beside(power) + scatter(random) << ',' << readings.powers[power]
-         << '\n';
+    const double level = -40 - 25 * std::log10(x) + readings.beside(power) + scatter(random);
+    text << i << ',' << (radio ? "b" : "a") << ",base," << x << ",0,0,0,";
+    if (level >= readings.floor) text << level;
+    text << ',' << readings.powers[power] << '\n';
   }
   const Scratch scratch;
   return read_dataset(scratch.write("d.csv", text.str()));
@@ -48,6 +50,12 @@ TEST(SentPower, LevelsThatFollowItAreReferredToTheMiddle) {
   ASSERT_TRUE(is_referred(raw));
   EXPECT_FALSE(is_referred(same));
   for (std::size_t i = 0; i < raw.rows(); ++i) EXPECT_NEAR(raw.rssi[i], same.rssi[i], 1e-3);
+}
+
+// Where three in five are lost, those of the lowest power that are heard are as strong as the others.
+TEST(SentPower, IsLookedForWhereHardlyAnyReadingIsLost) {
+  const std::vector<double> powers{-4, 2, 8, 14};
+  EXPECT_TRUE(is_referred(read({powers, [&](std::size_t k) { return powers[k]; }, false, -62})));
 }
 
 TEST(SentPower, OfAnAmplifierThatIsNearlyRight) {
