@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/inference/noise/dense_solvers.hpp"
+#include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -105,7 +106,8 @@ void fit_censored(Readings& readings, double floor, Minimum& fit, const Mean& me
 }
 
 // Where many are lost, what was heard at low levels are the stronger ones, to which a fit of them alone is too near to
-// see the floor: it is asked for beside a fit that knows it, too.
+// see the floor: it is asked for beside a fit that knows it, too. Readings that end at the world's own floor are lost
+// below it: neighbours share their errors, of which the likelihood of single readings knows nothing.
 void censor_if_likelier(Fit& fit, const Search& search, const Mean& mean, const Box& box) {
   if (fit.missing.censored || !fit.missing.rises()) return;
   Readings readings = fit.readings;
@@ -115,7 +117,9 @@ void censor_if_likelier(Fit& fit, const Search& search, const Mean& mean, const 
   search.set(censored.parameters);
   const Eigen::VectorXd expected = search.model.expected();
   const MissingData missing = missing_from(readings, expected, censored.sigma);
-  if (missing.censored && log_likelihood(readings, expected, censored.sigma, missing) > without)
+  const auto stated = silent_below(search.model.simulation());
+  const bool is_stated = stated && std::abs(missing.floor - *stated) < thresholds::near_stated_floor;
+  if (missing.censored && (is_stated || log_likelihood(readings, expected, censored.sigma, missing) > without))
     fit.missing = missing;
   else
     search.set(fit.least_squares.parameters);

@@ -8,10 +8,10 @@
 #include "diagnosis/inference/thresholds.hpp"
 #include "diagnosis/radio/causes/cheap_columns.hpp"
 #include "diagnosis/radio/causes/link_cause_domain.hpp"
-#include "diagnosis/radio/laws/clip_causes.hpp"
 #include "diagnosis/radio/laws/law_sources.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/geometry_checks.hpp"
+#include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/links/twin_readings.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 

@@ -264,6 +264,8 @@ inline constexpr double blockage_in_company = -9;
 // lambda; of blockage that keeps its name beside a cause of more evidence; chosen;
 // RadioField.IsAsOtherEvidenceSaysAndClaimsNothingThatHeldOutDataRefute
 inline constexpr double sure_blockage = 30;
+// dB; within which readings end at the floor that the world states; chosen; none
+inline constexpr double near_stated_floor = 3;
 // dB; within which a stage of the world already clips there; chosen; none
 inline constexpr double same_clip = 0.5;
 // share; of the evidence of losses that counts unless they are censored; chosen; none

@@ -9,6 +9,7 @@
 #include "diagnosis/calibration/truncation.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
+#include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -16,20 +17,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-// True if a plugin acts on this side, and what lies beyond is lost (`silent`) or piles up.
-bool acts(const muster_plugin& plugin, uint32_t side, bool silent) {
-  const muster_clip* const clip = plugin.clip;
-  return clip && clip->side == side && (clip->choice || (clip->silent != 0) == silent);
-}
-
 std::vector<const Cause*> clips_of(const LawSources& s, uint32_t side, bool silent) {
-  return causes_that(s, [&](const Cause& cause) { return acts(*cause.plugin, side, silent); });
-}
-
-// Level at which this instance clips, dBm.
-double level_of(const Instance& instance) {
-  const int at = instance.find_param(instance.plugin().clip->level);
-  return instance.params()[static_cast<std::size_t>(at)];
+  return causes_that(s, [&](const Cause& cause) { return clips(*cause.plugin, side, silent); });
 }
 
 // True if an instance of the world already clips there, or keeps silent even above.
@@ -37,8 +26,8 @@ bool clips_at(const LawSources& s, uint32_t side, bool silent, double level, dou
   if (const auto stated = silent_below(s.model.simulation()); silent && stated && level <= *stated) return true;
   const auto& all = s.model.simulation().instances();
   return std::any_of(all.begin(), all.end(), [&](const auto& instance) {
-    return acts(instance->plugin(), side, silent) &&
-           std::abs(level_of(*instance) - level) <= std::max(step, thresholds::same_clip);
+    return clips(instance->plugin(), side, silent) &&
+           std::abs(clip_level(*instance) - level) <= std::max(step, thresholds::same_clip);
   });
 }
 
@@ -189,17 +178,6 @@ bool ends_by_itself(const LawSources& s, double evidence, const VectorXd& weight
 }
 
 }  // namespace
-
-std::optional<double> silent_below(const Simulation& simulation) {
-  std::optional<double> level;
-  for (const auto& instance : simulation.instances()) {
-    if (!acts(instance->plugin(), MUSTER_BELOW, true)) continue;
-    const char* const choice = instance->plugin().clip->choice;
-    if (choice && instance->params()[static_cast<std::size_t>(instance->find_param(choice))] == 0) continue;
-    level = std::max(level.value_or(-std::numeric_limits<double>::infinity()), level_of(*instance));
-  }
-  return level;
-}
 
 bool add_truncation(const LawSources& s, Diagnosis& found) {
   const std::vector<const Cause*> causes = clips_of(s, MUSTER_BELOW, true);

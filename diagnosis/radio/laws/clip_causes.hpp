@@ -13,7 +13,5 @@ bool add_silence_beside(const LawSources& sources, const Eigen::VectorXd& mean, 
 // Tests for a silent floor where the table tells of no reading that is missing: what was heard may end there. True if
 // it is named.
 bool add_truncation(const LawSources& sources, Diagnosis& found);
-// Level below which an instance of this world lets nothing through, dBm.
-std::optional<double> silent_below(const Simulation& simulation);
 
 }  // namespace muster::diagnosis

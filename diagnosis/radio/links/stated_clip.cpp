@@ -1,0 +1,29 @@
+#include "diagnosis/radio/links/stated_clip.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace muster::diagnosis {
+
+bool clips(const muster_plugin& plugin, uint32_t side, bool silent) {
+  const muster_clip* const clip = plugin.clip;
+  return clip && clip->side == side && (clip->choice || (clip->silent != 0) == silent);
+}
+
+double clip_level(const Instance& instance) {
+  const int at = instance.find_param(instance.plugin().clip->level);
+  return instance.params()[static_cast<std::size_t>(at)];
+}
+
+std::optional<double> silent_below(const Simulation& simulation) {
+  std::optional<double> level;
+  for (const auto& instance : simulation.instances()) {
+    if (!clips(instance->plugin(), MUSTER_BELOW, true)) continue;
+    const char* const choice = instance->plugin().clip->choice;
+    if (choice && instance->params()[static_cast<std::size_t>(instance->find_param(choice))] == 0) continue;
+    level = std::max(level.value_or(-std::numeric_limits<double>::infinity()), clip_level(*instance));
+  }
+  return level;
+}
+
+}  // namespace muster::diagnosis
