@@ -1,0 +1,43 @@
+// A fit where most readings are lost below the floor that the world states.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "muster/random.hpp"
+#include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/worlds.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+// A tracker that drives away from a gateway, to 7 km: an exponent of 3.5, shadowing of 10 dB by stretches of 150 m,
+// and normal noise of 2 dB. Those beyond a kilometre that are heard are the stronger ones, to which a line of them
+// alone is too near: it leaves a third of the losses to the floor.
+TEST(StatedFloor, ReadingsThatEndThereAreLostBelowIt) {
+  const Scratch scratch;
+  const auto world =
+      scratch.write("world.xml",
+                    "<world name=\"w\" dt=\"0.1\" until=\"1\"><station name=\"gateway\" at=\"0 0 10\"/>"
+                    "<station name=\"tracker\" at=\"100 0 1\"/><radio.multiwall tx_power=\"0\" l0=\"20\" n=\"3.5\"/>"
+                    "<radio.receiver sensitivity=\"-137\"/></world>\n");
+  std::string table = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n";
+  const Stream random(key_of("stated floor"));
+  for (uint64_t i = 0; i < 1400; ++i) {
+    const double x = 100 + 5 * static_cast<double>(i);
+    const double level = -20 - 35 * std::log10(x) + 10 * random.of(1).normal(static_cast<uint64_t>(x / 150)) +
+                         2 * random.of(2).normal(i);
+    table +=
+        fmt::format("{},tracker,gateway,{},0,1,0,0,10,{}\n", i, x, level < -137 ? "" : fmt::format("{:.0f}", level));
+  }
+  const auto file = scratch.write("data.csv", table);
+  LinkModel model(world, file, plugins);
+  const Fit fitted = fit(model, read_dataset(file), {});
+  EXPECT_GT(fitted.missing.count, 700u);
+  EXPECT_TRUE(fitted.missing.censored);
+  EXPECT_NEAR(parameter(fitted, "radio.multiwall/n").value, 3.5, 0.6);
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
