@@ -388,8 +388,12 @@ inline constexpr double usual_misfit = 2;
 // factor; by which blockage exceeds the sign-flipped statistic; measured;
 // BlockageTest.NoFalseAlarmForNearlySymmetricBursts
 inline constexpr double flipped_times = 3;
-// nats; ratio below which no shuffled null can be significant; chosen; none
-inline constexpr double promising_blockage = 3;
+// passages; of people on a link, fewer of which may be dips of the field; chosen;
+// SimulatedDraws.ADipOfTheFieldIsNobodyWhoPasses
+inline constexpr std::size_t fewest_passages = 3;
+// nats; ratio of the likeliest link below which nobody is told to pass; chosen;
+// SimulatedDraws.ADipOfTheFieldIsNobodyWhoPasses
+inline constexpr double promising_blockage = 7;
 // links; of each of its radios, beside a link that is tested for people who walk about; chosen;
 // WalkersTest.WhatARadioSharesIsNoWalker
 inline constexpr std::size_t fewest_other_links = 3;

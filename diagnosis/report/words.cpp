@@ -182,13 +182,25 @@ std::string rivals_in_words(const CauseEstimate& cause) {
              : rivals_in_words(cause.alternatives);
 }
 
+namespace {
+
+// Where the price of places and strengths alone decides, the readings had no part in it.
+std::string judged(const inference::Alternative& r) {
+  const bool by_price = r.separability < inference::thresholds::inseparable &&
+                        r.evidence_gap >= inference::thresholds::open_nats &&
+                        r.by_readings < inference::thresholds::open_nats;
+  return report::judged(r.separability) + (by_price ? " by the readings, but less likely before them" : "");
+}
+
+}  // namespace
+
 std::string rivals_in_words(const std::vector<inference::Alternative>& alternatives) {
   if (alternatives.empty()) return "none: the readings exclude all other causes";
   std::string out;
   for (const inference::Alternative& r : alternatives)
-    out += fmt::format(
-        "{}{}, {}{}", out.empty() ? "" : "; ", with_label(r.id, r.label), likelihood_in_words(r.evidence_gap),
-        std::isnan(r.separability) ? "" : fmt::format(", D {:.0f}: {}", r.separability, judged(r.separability)));
+    out += fmt::format("{}{}, {}{}", out.empty() ? "" : "; ", with_label(r.id, r.label),
+                       likelihood_in_words(r.evidence_gap),
+                       std::isnan(r.separability) ? "" : fmt::format(", D {:.0f}: {}", r.separability, judged(r)));
   return out;
 }
 

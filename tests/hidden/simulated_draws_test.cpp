@@ -56,6 +56,11 @@ TEST(SimulatedDraws, BothDirectionsOfAMomentCountOnce) {
   expect_adequate(86);
 }
 
+// One dip of a smooth field where a robot turns, and a few of multipath: people, by 12 and 5 nats.
+TEST(SimulatedDraws, ADipOfTheFieldIsNobodyWhoPasses) {
+  for (const int number : {104, 129}) expect_adequate(number, "99901");
+}
+
 // Names the one cause, and nothing else.
 void expect_named(int number, const std::string& seed) {
   const Grades g = examined("--seed " + seed + " --first " + std::to_string(number) +

@@ -103,8 +103,8 @@ class Scan {
     return result;
   }
 
-  // Whitened residual without the likeliest blockages of one width and loss, each with its best-fitting loss.
-  VectorXd without_passages(const Train& train, double loss, const VectorXd& pulls) const {
+  // The likeliest blockages of one width and loss: indices of their dips.
+  std::vector<std::size_t> passages(const Train& train, double loss, const VectorXd& pulls) const {
     const std::vector<double> scores = scores_of(train, pulls);
     const std::size_t apart = gap(train);
     std::vector<double> highest(scores.size() + 1, 0);  // over all sets of blockages so far
@@ -115,11 +115,20 @@ class Scan {
       passes[k] = with > highest[k];
       highest[k + 1] = std::max(with, highest[k]);
     }
-    VectorXd dips = VectorXd::Zero(state_.rows().size());
+    std::vector<std::size_t> result;
     for (std::size_t k = scores.size(); k > 0; k -= passes[k - 1] ? std::min(k, apart) : 1) {
-      const Dip& dip = train.dips[k - 1];
-      if (!passes[k - 1]) continue;
-      for (const auto& [row, share] : dip.rows) dips[row] -= share * scores[k - 1] / dip.energy;
+      if (passes[k - 1]) result.push_back(k - 1);
+    }
+    return result;
+  }
+
+  // Whitened residual without these blockages, each with its best-fitting loss.
+  VectorXd without(const std::vector<std::size_t>& passages, const Train& train, const VectorXd& pulls) const {
+    const std::vector<double> scores = scores_of(train, pulls);
+    VectorXd dips = VectorXd::Zero(state_.rows().size());
+    for (const std::size_t k : passages) {
+      const Dip& dip = train.dips[k];
+      for (const auto& [row, share] : dip.rows) dips[row] -= share * scores[k] / dip.energy;
     }
     return residual_ - model_.at.basis.rest(model_.whitener(dips));
   }
@@ -354,7 +363,10 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
                         {"duration", duration, duration / 1.8, duration * 1.8}};
   result.test.gain = 2 * at[width][loss];
   result.test.evidence = best - std::log(static_cast<double>(scan.links().size()));
-  result.test.log_p = log_p(scan, best, scan.without_passages(where->trains[width], losses[loss], pulls));
+  const Train& train = where->trains[width];
+  const std::vector<std::size_t> passages = scan.passages(train, losses[loss], pulls);
+  result.test.log_p =
+      passages.size() < thresholds::fewest_passages ? 0 : log_p(scan, best, scan.without(passages, train, pulls));
   if (beyond_chance(result.test, thresholds::law_alpha) &&
       best < thresholds::beyond_drawn * highest_in_draws(scan, state))
     result.test.log_p = 0;

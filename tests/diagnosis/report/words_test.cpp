@@ -195,6 +195,9 @@ TEST(Text, WhatIsUnexplainedNamesTheCausesThatExplainItNearlyAsWell) {
       "drift radio/base, 3.3 times less likely (1.2 nats), D 3: not distinguishable; step, 13 times less likely (2.6 "
       "nats), D 15";
   EXPECT_TRUE(says(page, alternatives)) << page;
+  EXPECT_EQ(rivals_in_words({{"effect.step", "all", {}, 4.8, 0, 0.1}}),
+            "step, 122 times less likely (4.8 nats), D 0: not distinguishable by the readings, but less likely before "
+            "them");
   const auto json = nlohmann::json::parse(json_of(d).dump());
   EXPECT_EQ(json["unexplained"][0]["rivals"][0]["id"], "effect.drift");
   EXPECT_EQ(json["advice"][0]["separates"], "~battery effect.drift");
