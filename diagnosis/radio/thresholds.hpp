@@ -391,9 +391,11 @@ inline constexpr double flipped_times = 3;
 // passages; of people on a link, fewer of which may be dips of the field; chosen;
 // SimulatedDraws.ADipOfTheFieldIsNobodyWhoPasses
 inline constexpr std::size_t fewest_passages = 3;
-// nats; ratio of the likeliest link below which nobody is told to pass; chosen;
+// nats; ratio of the likeliest link below which nobody is told to pass where nothing else was found; chosen;
 // SimulatedDraws.ADipOfTheFieldIsNobodyWhoPasses
-inline constexpr double promising_blockage = 7;
+inline constexpr double blockage_alone = 7;
+// nats; ratio below which no shuffled null can be significant; chosen; none
+inline constexpr double promising_blockage = 3;
 // links; of each of its radios, beside a link that is tested for people who walk about; chosen;
 // WalkersTest.WhatARadioSharesIsNoWalker
 inline constexpr std::size_t fewest_other_links = 3;

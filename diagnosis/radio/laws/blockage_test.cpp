@@ -365,8 +365,8 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
   result.test.evidence = best - std::log(static_cast<double>(scan.links().size()));
   const Train& train = where->trains[width];
   const std::vector<std::size_t> passages = scan.passages(train, losses[loss], pulls);
-  result.test.log_p =
-      passages.size() < thresholds::fewest_passages ? 0 : log_p(scan, best, scan.without(passages, train, pulls));
+  result.is_slight = passages.size() < thresholds::fewest_passages || best < thresholds::blockage_alone;
+  result.test.log_p = log_p(scan, best, scan.without(passages, train, pulls));
   if (beyond_chance(result.test, thresholds::law_alpha) &&
       best < thresholds::beyond_drawn * highest_in_draws(scan, state))
     result.test.log_p = 0;

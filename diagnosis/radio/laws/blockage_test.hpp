@@ -13,6 +13,7 @@ struct Blockage {
   int radio = -1, other = -1;  // indices into the set `radio`
   std::size_t links = 0;       // scanned: those with at least 40 rows that take part
   LawTest test;                // its values: loss, share, duration
+  bool is_slight = false;      // one or two passages, or a few nats: dips that a field may have
 };
 
 // The likeliest link, loss, share and duration. Each link is scanned with dips of several widths and losses: the
@@ -21,8 +22,8 @@ struct Blockage {
 // The null is the same scan of shuffled whitened residuals: shuffles keep the skewness of errors and break up bursts.
 // It is also compared with the scan of the sign-flipped residual without the blockages. People only lower levels; a
 // misfit of the field raises them as often. And with draws of the world itself, where it draws a field: p is 1 if they
-// look as much like people. One or two dips may be the field's: p is 1 for these, too. Rows with an excluded reading
-// take no part: near a clip levels are truncated on one side, which resembles bursts.
+// look as much like people. Rows with an excluded reading take no part: near a clip levels are truncated on one side,
+// which resembles bursts.
 Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const RowMask& asked);
 
 }  // namespace muster::diagnosis

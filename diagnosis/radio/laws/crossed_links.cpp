@@ -64,7 +64,8 @@ Crossed add_blockage(const LawSources& s, const VectorXd& residual, Diagnosis& f
   const Blockage passages = blockage_test(s.state, s.readings, residual.array().isFinite());
   add_tested(causes, passages.links ? "" : "not testable: no link has 40 rows of readings that are no bounds", found);
   if (passages.radio < 0 || !beyond_chance(passages.test, thresholds::law_alpha) ||
-      (passages.test.log_p > thresholds::blockage_in_company && !all_changes_in_time(found)))
+      (passages.test.log_p > thresholds::blockage_in_company && !all_changes_in_time(found)) ||
+      (passages.is_slight && found.causes.empty() && found.unexplained.empty()))
     return {};
   const muster_burst& burst = *causes.front()->plugin->burst;
   CauseEstimate& out = add_crossings(s, causes, passages.test, found);
