@@ -84,13 +84,6 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
                                             " to fit " + std::to_string(search.parameters.size()) + " parameters");
 }
 
-// Log-likelihood of the readings that were heard and of which were, up to a constant.
-double log_likelihood(const Readings& readings, const Eigen::VectorXd& mean, double sigma, const MissingData& missing) {
-  const Eigen::VectorXd heard = (readings.rssi - mean)(readings.heard);
-  return missing.evidence / 2 - heard.squaredNorm() / (2 * sigma * sigma) -
-         static_cast<double>(heard.size()) * std::log(sigma);
-}
-
 // A receiver's floor is one of what it received.
 MissingData missing_from(const Readings& readings, const Eigen::VectorXd& mean, double sigma) {
   return missing_data(readings.received(readings.rssi), readings.received(mean), sigma);
@@ -106,20 +99,18 @@ void fit_censored(Readings& readings, double floor, Minimum& fit, const Mean& me
 }
 
 // Where many are lost, what was heard at low levels are the stronger ones, to which a fit of them alone is too near to
-// see the floor: it is asked for beside a fit that knows it, too. Readings that end at the world's own floor are lost
-// below it: neighbours share their errors, of which the likelihood of single readings knows nothing.
-void censor_if_likelier(Fit& fit, const Search& search, const Mean& mean, const Box& box) {
-  if (fit.missing.censored || !fit.missing.rises()) return;
+// see the floor. Where readings end at the floor that the world states it is asked for beside a fit that knows it, too.
+void look_for_stated_floor(Fit& fit, const Search& search, const Mean& mean, const Box& box) {
+  const auto stated = silent_below(search.model.simulation());
+  if (!stated || fit.missing.censored || !fit.missing.rises() ||
+      std::abs(fit.missing.floor - *stated) > thresholds::near_stated_floor)
+    return;
   Readings readings = fit.readings;
   Minimum censored = fit.least_squares;
-  const double without = log_likelihood(fit.readings, search.model.expected(), fit.least_squares.sigma, fit.missing);
   fit_censored(readings, fit.missing.floor, censored, mean, box);
   search.set(censored.parameters);
-  const Eigen::VectorXd expected = search.model.expected();
-  const MissingData missing = missing_from(readings, expected, censored.sigma);
-  const auto stated = silent_below(search.model.simulation());
-  const bool is_stated = stated && std::abs(missing.floor - *stated) < thresholds::near_stated_floor;
-  if (missing.censored && (is_stated || log_likelihood(readings, expected, censored.sigma, missing) > without))
+  const MissingData missing = missing_from(readings, search.model.expected(), censored.sigma);
+  if (missing.censored)
     fit.missing = missing;
   else
     search.set(fit.least_squares.parameters);
@@ -132,7 +123,7 @@ void solve(Fit& fit, const Search& search) {
   fit.least_squares = least_squares(fit.readings, mean, search.start(), box);
   search.set(fit.least_squares.parameters);
   fit.missing = missing_from(fit.readings, search.model.expected(), fit.least_squares.sigma);
-  censor_if_likelier(fit, search, mean, box);
+  look_for_stated_floor(fit, search, mean, box);
   if (fit.missing.censored) fit_censored(fit.readings, fit.missing.floor, fit.least_squares, mean, box);
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
   if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another local minimum: descend there as well
