@@ -110,7 +110,7 @@ void look_for_stated_floor(Fit& fit, const Search& search, const Mean& mean, con
   fit_censored(readings, fit.missing.floor, censored, mean, box);
   search.set(censored.parameters);
   const MissingData missing = missing_from(readings, search.model.expected(), censored.sigma);
-  if (missing.censored)
+  if (missing.censored && censored.sigma < thresholds::wider_beside_floor * fit.least_squares.sigma)
     fit.missing = missing;
   else
     search.set(fit.least_squares.parameters);

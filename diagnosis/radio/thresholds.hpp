@@ -266,6 +266,9 @@ inline constexpr double blockage_in_company = -9;
 inline constexpr double sure_blockage = 30;
 // dB; within which readings end at the floor that the world states; chosen; none
 inline constexpr double near_stated_floor = 3;
+// times; the scatter of what was heard, by which readings may scatter if all losses lie below that floor; chosen;
+// RealData.RowsOfShelvesAreFoundAsWalls
+inline constexpr double wider_beside_floor = 2;
 // dB; within which a stage of the world already clips there; chosen; none
 inline constexpr double same_clip = 0.5;
 // share; of the evidence of losses that counts unless they are censored; chosen; none
