@@ -240,22 +240,17 @@ namespace {
 
 // std::has_single_bit counts all bits, by a call where the processor may be of before 2008.
 constexpr bool is_power_of_two(uint64_t number) { return (number & (number - 1)) == 0; }
-constexpr bool is_power_of_four(uint64_t number) {
-  return is_power_of_two(number) && (number & 0x5555'5555'5555'5555) != 0;
-}
 
 }  // namespace
 
 // Some steps take place between guards, all of the first and ever fewer later; of those whose tables are large, which
-// are copied, fewer from the start: a diagnosis steps the plugins of causes thousands of times on all readings. Where
-// it steps in a process of its own, it can write into nothing of others.
+// are copied, fewer from the start. Where it steps in a process of its own, it can write into nothing of others.
 bool Instance::is_looked_at() const {
   constexpr uint64_t all = 16, one_of = 4096;
-  constexpr std::size_t large = 1 << 13;  // cells
+  constexpr std::size_t large = 1 << 16;  // cells
   if (there_) return false;
-  if (is_power_of_four(steps_)) return true;
-  return (steps_ <= all || is_power_of_two(steps_) || steps_ % one_of == 0) &&
-         GuardedViews::cells_of(in_, out_) < large;
+  if (is_power_of_two(steps_)) return true;
+  return (steps_ <= all || steps_ % one_of == 0) && GuardedViews::cells_of(in_, out_) < large;
 }
 
 std::string Instance::words_of(const GuardedViews::Fault& fault) const {
@@ -279,11 +274,9 @@ bool Instance::step_here(const muster_tick& now) noexcept {
   time_ = now.time;
   const RunningCallback running(title_.c_str(), "step", tick_, now.time, may_wait_);
   ++steps_;
-  // The rest of the process is looked at in the steps 1, 2, 4, 8, 16, 64, 256, ..., where no other instance steps
-  // beside it.
+  // The rest of the process is looked at in the steps 1, 2, 4, 8, ..., where no other instance steps beside it.
   std::unique_ptr<ProcessGuard> process;
-  if (is_power_of_two(steps_) && (steps_ <= 16 || is_power_of_four(steps_)) && !there_ && !around_.workers)
-    process = std::make_unique<ProcessGuard>();
+  if (is_power_of_two(steps_) && !there_ && !around_.workers) process = std::make_unique<ProcessGuard>();
   if (is_looked_at()) guarded_views_.open(in_, out_);
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;
