@@ -59,6 +59,7 @@ TEST(SimulatedDraws, BothDirectionsOfAMomentCountOnce) {
 // One dip of a smooth field where a robot turns, and a few of multipath: people, by 12 and 5 nats.
 TEST(SimulatedDraws, ADipOfTheFieldIsNobodyWhoPasses) {
   for (const int number : {104, 129}) expect_adequate(number, "99901");
+  expect_adequate(72, "99701");
 }
 
 // Names the one cause, and nothing else.

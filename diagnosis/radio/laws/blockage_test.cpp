@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "diagnosis/inference/noise/whitener_columns.hpp"
-#include "diagnosis/radio/laws/law_sources.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 #include "muster/random.hpp"
 
@@ -70,13 +69,6 @@ class Scan {
 
   const std::vector<Link>& links() const { return links_; }
   const VectorXd& residual() const { return residual_; }
-
-  // Whitened residual of the rows of a draw: as if its errors were at most as large as the data's.
-  VectorXd residual_of(const VectorXd& drawn) const {
-    const VectorXd white = model_.at.basis.rest(model_.whitener(drawn));
-    const double most = model_.at.residual.norm() / std::max(white.norm(), 1e-9);
-    return without_spikes(std::min(1.0, most) * white);
-  }
 
   // Derivative of the log-likelihood by a shift of each row; scores of dips are sums of these.
   VectorXd pulls(const VectorXd& whitened) const { return reach_.transposed(whitened); }
@@ -266,16 +258,6 @@ double highest(const Scan& scan, const VectorXd& whitened) {
   return most;
 }
 
-// The same in draws of the world itself, whose field of a few waves may bend like a passage where nothing blurs it.
-double highest_in_draws(const Scan& scan, const inference::ModelState& state) {
-  double most = impossible;
-  for (const noise::StatedField& field : state.drawable(state.fit.covariance)) {
-    for (const auto& drawn : state.drawn(field).colwise())
-      most = std::max(most, highest(scan, scan.residual_of(drawn)));
-  }
-  return most;
-}
-
 VectorXd shuffled(const VectorXd& values, uint64_t number) {
   const Stream stream(combined(key_of("passages shuffled"), number));
   VectorXd result = values;
@@ -367,9 +349,6 @@ Blockage blockage_test(const inference::ModelState& state, const LinkReadings& r
   const std::vector<std::size_t> passages = scan.passages(train, losses[loss], pulls);
   result.is_slight = passages.size() < thresholds::fewest_passages || best < thresholds::blockage_alone;
   result.test.log_p = log_p(scan, best, scan.without(passages, train, pulls));
-  if (beyond_chance(result.test, thresholds::law_alpha) &&
-      best < thresholds::beyond_drawn * highest_in_draws(scan, state))
-    result.test.log_p = 0;
   return result;
 }
 

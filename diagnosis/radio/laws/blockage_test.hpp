@@ -21,9 +21,8 @@ struct Blockage {
 //
 // The null is the same scan of shuffled whitened residuals: shuffles keep the skewness of errors and break up bursts.
 // It is also compared with the scan of the sign-flipped residual without the blockages. People only lower levels; a
-// misfit of the field raises them as often. And with draws of the world itself, where it draws a field: p is 1 if they
-// look as much like people. Rows with an excluded reading take no part: near a clip levels are truncated on one side,
-// which resembles bursts.
+// misfit of the field raises them as often. Rows with an excluded reading take no part: near a clip levels are
+// truncated on one side, which resembles bursts.
 Blockage blockage_test(const inference::ModelState& state, const LinkReadings& readings, const RowMask& asked);
 
 }  // namespace muster::diagnosis

@@ -1,6 +1,5 @@
 // Selects the end of each link that moves farther; if both move as far the receiver, or the one that has a heading, as
-// a sender on a turntable. A robot's place and heading
-// have the same effect in both directions of a link.
+// a sender on a turntable. A robot's place and heading have the same effect in both directions of a link.
 #pragma once
 
 #include "diagnosis/radio/links/link_rows.hpp"

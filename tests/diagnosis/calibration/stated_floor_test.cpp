@@ -14,7 +14,7 @@ namespace {
 
 // A tracker that drives away from a gateway, to 7 km: an exponent of 3.5, shadowing of 10 dB by stretches of 150 m,
 // and normal noise of 2 dB. Those beyond a kilometre that are heard are the stronger ones, to which a line of them
-// alone is too near: it leaves a third of the losses to the floor.
+// alone is too near: it leaves a quarter of the losses to the floor.
 TEST(StatedFloor, ReadingsThatEndThereAreLostBelowIt) {
   const Scratch scratch;
   const auto world =
