@@ -227,7 +227,9 @@ inline const Standard& standard() {
            "wall",
            "walls from a table",
            "wall",
-           {{file("file", "a table with columns name, x0[m], y0[m], x1[m], y1[m], height[m], thickness[m], material")
+           {{file("file",
+                  "a table with columns name, x0[m], y0[m], x1[m], y1[m], material, and base[m], height[m], "
+                  "thickness[m] where they are not the defaults")
                  .required(),
              0, "", nullptr}},
            ""},

@@ -12,7 +12,8 @@ struct FeederLoss {
   static constexpr auto summary = "a radio's cable, connector or antenna loses more than the world says, both ways";
   static constexpr auto manual =
       "Takes `loss` from every link that `radio` sends and from every link that it receives: by reciprocity a cable or "
-      "an antenna loses the same both ways.";
+      "an antenna loses the same both ways. A diagnosis seeks it for radios that send and receive. Of one that only "
+      "receives it is an rx_offset, of one that only sends a tx_offset: the readings are the same.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),

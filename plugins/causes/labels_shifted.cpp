@@ -48,7 +48,8 @@ struct LabelsShifted {
       "in order as people list them, node2 before node10: a world that lists only some of the radios does not tell "
       "the\n"
       "order of all. A radio that is in the list and never heard has its line, too. Nothing changes where `first` "
-      "moves.";
+      "moves.\n"
+      "Radios that only the data name are in it, too: behind those of the world, in the order of the data.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("first", "radio", "which radio's place the first one has").required(),

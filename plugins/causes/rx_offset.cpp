@@ -10,7 +10,9 @@ using namespace muster;
 struct RxOffset {
   static constexpr auto id = "effect.rx_offset/1";
   static constexpr auto summary = "a radio reads every level too high or too low";
-  static constexpr auto manual = "Adds `offset` to every link that `radio` receives.";
+  static constexpr auto manual =
+      "Adds `offset` to every link that `radio` receives. Of a radio that only receives, a wrong scale, a deaf "
+      "receiver and a lossy feeder are the same shift: each is told as this one.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),

@@ -15,7 +15,8 @@ struct RadioLinks {
   static constexpr auto manual =
       "Each tick lists an endpoint for every radio that has not left, where its mount puts it, and a link for every\n"
       "ordered pair of endpoints no further apart than `range`, grouped by sender.\n"
-      "A pair beyond the range is absent: no term is evaluated for it and nothing is received.";
+      "A pair beyond the range is absent: no term is evaluated for it and nothing is received.\n"
+      "A fit and a diagnosis have data.links in its place: readings of pairs beyond the range count as all others.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {real("range", 1000, 0, 1e6, "m", "pairs further apart than this are absent")};
 
