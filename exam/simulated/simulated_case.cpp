@@ -317,9 +317,13 @@ Made make(const Request& request, int number) {
   maker.plant(kinds, count, random);
   maker.hear(draws);
   // The field is that of the seed. But what is drawn by link and time, such as outliers, would be the same at the same
-  // times.
-  if (std::any_of(made.causes.begin(), made.causes.end(),
-                  [](const PlantedCause& c) { return c.acts == Acts::reading_law || c.acts == Acts::blockage; }))
+  // times. What changes in time stays where it is.
+  const auto is_drawn = [](const PlantedCause& c) { return c.acts == Acts::reading_law || c.acts == Acts::blockage; };
+  const auto is_in_time = [](const PlantedCause& c) {
+    return c.id.ends_with("drift") || c.id.ends_with("step") || c.id.ends_with("periodic");
+  };
+  if (std::any_of(made.causes.begin(), made.causes.end(), is_drawn) &&
+      std::none_of(made.causes.begin(), made.causes.end(), is_in_time))
     for (Reading& r : made.second.readings) r.t += made.site.duration();
   const Simulator second(request.program, table(made, made.second), walls_csv(made.site.plan));
   made.second.rssi = heard_as(second.drawn(world_elements(made) + elements(made.causes), draws), made.channel.step());
