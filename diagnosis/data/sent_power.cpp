@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -25,9 +26,10 @@ double lossless_reach(const PoweredReadings& readings) {
   }
   std::sort(lost.begin(), lost.end());
   double reach = 0, count = 0, missing = 0;
-  for (const auto& [distance, is_lost] : lost) {
-    count += 1, missing += is_lost;
-    if (missing <= thresholds::lost_of_powers * count) reach = distance;
+  for (std::size_t i = 0; i < lost.size(); ++i) {
+    count += 1, missing += lost[i].second;
+    const bool goes_on = i + 1 < lost.size() && lost[i + 1].first == lost[i].first;  // at the same distance
+    if (!goes_on && missing <= thresholds::lost_of_powers * count) reach = lost[i].first;
   }
   return reach;
 }
@@ -39,9 +41,8 @@ struct WithinLinks {
   MatrixXd design;             // the logarithm of distance, then one column for each power but the lowest
 };
 
-std::optional<WithinLinks> within_links(const PoweredReadings& readings) {
+std::optional<WithinLinks> within_links(const PoweredReadings& readings, double reach) {
   WithinLinks result;
-  const double reach = lossless_reach(readings);
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < readings.level.size(); ++i) {
     if (!std::isfinite(readings.level[i]) || !std::isfinite(readings.power[i]) || !(readings.distance[i] > 0) ||
@@ -99,10 +100,18 @@ std::optional<double> rise(const WithinLinks& w) {
 }  // namespace
 
 std::optional<SentPower> followed_power(const PoweredReadings& readings) {
-  const auto w = within_links(readings);
-  const auto slope = w ? rise(*w) : std::nullopt;
-  if (!slope) return {};
-  return SentPower{*slope, (w->powers.front() + w->powers.back()) / 2};
+  // Losses by chance hide nothing: those within the reach are asked only where all together do not follow the power.
+  for (const double reach : {std::numeric_limits<double>::infinity(), lossless_reach(readings)}) {
+    const auto w = within_links(readings, reach);
+    const auto slope = w ? rise(*w) : std::nullopt;
+    if (!slope) continue;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const double power : readings.power) {
+      if (std::isfinite(power)) least = std::min(least, power), most = std::max(most, power);
+    }
+    return SentPower{*slope, (least + most) / 2};
+  }
+  return {};
 }
 
 }  // namespace muster::diagnosis

@@ -20,6 +20,7 @@ struct Readings {
   double floor = -1000;                             // dBm, below which a reading is lost
   double scatter = 3;                               // dB
   std::size_t count = 400;
+  double lost = 0;  // share of the readings, by chance
 };
 
 // Two radios that drive away from a third; a path loss of 2.5.
@@ -33,7 +34,7 @@ Dataset read(const Readings& readings) {
     const double x = 1 + 40 * static_cast<double>(i) / static_cast<double>(readings.count);
     const double level = -40 - 25 * std::log10(x) + readings.beside(power) + scatter(random);
     text << i << ',' << (radio ? "b" : "a") << ",base," << x << ",0,0,0,";
-    if (level >= readings.floor) text << level;
+    if (level >= readings.floor && std::uniform_real_distribution<double>()(random) >= readings.lost) text << level;
     text << ',' << readings.powers[power] << '\n';
   }
   const Scratch scratch;
@@ -58,6 +59,15 @@ TEST(SentPower, LevelsThatFollowItAreReferredToTheMiddle) {
 TEST(SentPower, IsLookedForWhereHardlyAnyReadingIsLost) {
   const std::vector<double> powers{-4, 2, 8, 14};
   EXPECT_TRUE(is_referred(read({powers, [&](std::size_t k) { return powers[k]; }, false, -62, 8, 2000})));
+}
+
+// Losses by chance, at any distance, hide nothing. The middle is that of the powers that were set.
+TEST(SentPower, IsFollowedWhereReadingsAreLostByChance) {
+  const std::vector<double> powers{-4, 2, 8, 14};
+  const Dataset data = read({powers, [&](std::size_t k) { return powers[k]; }, false, -1000, 3, 2000, 0.15});
+  ASSERT_TRUE(is_referred(data));
+  EXPECT_EQ(*std::max_element(data.referred.begin(), data.referred.end()), 9);
+  EXPECT_EQ(*std::min_element(data.referred.begin(), data.referred.end()), -9);
 }
 
 TEST(SentPower, OfAnAmplifierThatIsNearlyRight) {
