@@ -98,7 +98,7 @@ std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws
 std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
   if (at.fitted.missing.count > 0) return {};
   const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation());
-  const double weakest = *std::min_element(at.data.rssi.begin(), at.data.rssi.end());
+  const double weakest = at.fitted.readings.received(at.fitted.readings.rssi).minCoeff();
   return level && std::abs(weakest - *level) <= thresholds::reaches_a_floor ? level : std::nullopt;
 }
 
@@ -121,7 +121,11 @@ inference::Problem problem_of(const DiagnosisSetup& at) {
   problem.layout = at.layout;
   problem.measured = levels.measured - at.base.offset()(at.used.rows);
   problem.bounds = std::move(levels.bounds);
-  if (at.end) problem.bounds.end = (*at.end - at.receiver.step / 2) - at.base.offset()(at.used.rows).array();
+  if (at.end) {
+    const VectorXd referred = at.fitted.readings.referred.size() ? VectorXd(at.fitted.readings.referred(at.used.rows))
+                                                                 : VectorXd::Zero(problem.measured.size());
+    problem.bounds.end = (*at.end - at.receiver.step / 2) - (at.base.offset()(at.used.rows) + referred).array();
+  }
   problem.base = at.base.slopes(at.used.rows, Eigen::all);
   for (const CauseCandidate& c : at.sought.found) problem.candidates.push_back(c.candidate);
   problem.smooths = link_smooths(at.layout->readings(), at.observed.columns, at.data.has_places());

@@ -15,10 +15,29 @@ double clip_level(const Instance& instance) {
   return instance.params()[static_cast<std::size_t>(at)];
 }
 
+namespace {
+
+// True if the world writes the level, which is no default then.
+bool is_stated(const Instance& instance) {
+  return instance.declared().attribute(instance.plugin().clip->level) != nullptr;
+}
+
+}  // namespace
+
+std::map<std::string, double> unstated_floors(const Simulation& simulation) {
+  std::map<std::string, double> result;
+  for (const auto& instance : simulation.instances()) {
+    if (!clips(instance->plugin(), MUSTER_BELOW, true) || is_stated(*instance)) continue;
+    const muster_clip& clip = *instance->plugin().clip;
+    result[instance->name() + '/' + clip.level] = instance->plugin().params[instance->find_param(clip.level)].min;
+  }
+  return result;
+}
+
 std::optional<double> silent_below(const Simulation& simulation) {
   std::optional<double> level;
   for (const auto& instance : simulation.instances()) {
-    if (!clips(instance->plugin(), MUSTER_BELOW, true)) continue;
+    if (!clips(instance->plugin(), MUSTER_BELOW, true) || !is_stated(*instance)) continue;
     const char* const choice = instance->plugin().clip->choice;
     if (choice && instance->params()[static_cast<std::size_t>(instance->find_param(choice))] == 0) continue;
     level = std::max(level.value_or(-std::numeric_limits<double>::infinity()), clip_level(*instance));

@@ -1,7 +1,9 @@
 // What the world's own plugins clip.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "kernel/simulation.hpp"
 
@@ -11,7 +13,9 @@ namespace muster::diagnosis {
 bool clips(const muster_plugin& plugin, uint32_t side, bool silent);
 // Level at which an instance of such a plugin clips, dBm.
 double clip_level(const Instance& instance);
-// Level below which an instance of this world lets nothing through, dBm.
+// Level that the world writes, dBm, below which an instance of it lets nothing through. A default is no statement.
 std::optional<double> silent_below(const Simulation& simulation);
+// Paths of the levels of other such instances, with the lowest that each may be.
+std::map<std::string, double> unstated_floors(const Simulation& simulation);
 
 }  // namespace muster::diagnosis

@@ -1,6 +1,7 @@
 #include "diagnosis/radio/links/world_draws.hpp"
 
 #include "diagnosis/radio/links/drawn_term.hpp"
+#include "diagnosis/radio/links/stated_clip.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
@@ -16,6 +17,7 @@ WorldDraws::WorldDraws(std::filesystem::path world, std::filesystem::path data, 
 WorldDraw WorldDraws::draw(uint64_t number, const std::map<std::string, double>& values,
                            const noise::StatedField& field) const {
   LinkModel model(world_, data_, plugins_, tables_, combined(key_of("draws of the world"), number));
+  for (const auto& [path, lowest] : unstated_floors(model.simulation())) model.set(path, lowest);
   for (const auto& [path, value] : values) model.set(path, value);
   if (field.shadowing > 0) set_drawn_field(model, field);
   Eigen::VectorXd drawn = model.drawn();

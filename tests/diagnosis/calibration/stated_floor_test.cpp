@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "diagnosis/radio/links/stated_clip.hpp"
+#include "diagnosis/radio/links/world_draws.hpp"
 #include "muster/random.hpp"
 #include "tests/diagnosis/scratch.hpp"
 #include "tests/diagnosis/worlds.hpp"
@@ -37,6 +39,27 @@ TEST(StatedFloor, ReadingsThatEndThereAreLostBelowIt) {
   EXPECT_GT(fitted.missing.count, 700u);
   EXPECT_TRUE(fitted.missing.censored);
   EXPECT_NEAR(parameter(fitted, "radio.multiwall/n").value, 3.5, 0.6);
+}
+
+// A receiver that the world does not write hears what was measured, however weak that is.
+TEST(StatedFloor, ADefaultIsNone) {
+  const Scratch scratch;
+  const std::string table =
+      "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n0,a,b,0,0,1,900,0,1,-131\n"
+      "1,a,b,0,0,1,950,0,1,-133\n";
+  const auto file = scratch.write("data.csv", table);
+  for (const bool is_written : {false, true}) {
+    const auto world = scratch.write(
+        "world.xml", fmt::format("<world name=\"w\" dt=\"0.1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
+                                 "<station name=\"b\" at=\"900 0 1\"/><radio.multiwall tx_power=\"0\" l0=\"40\" "
+                                 "n=\"3\"/><radio.fading shadowing=\"2\" per_reading=\"true\"/>{}</world>\n",
+                                 is_written ? "<radio.receiver sensitivity=\"-95\"/>" : ""));
+    const LinkModel model(world, file, plugins);
+    EXPECT_EQ(silent_below(model.simulation()).has_value(), is_written);
+    EXPECT_EQ(unstated_floors(model.simulation()).empty(), is_written);
+    const WorldDraw draw = WorldDraws(world, file, plugins, std::make_shared<TableCache>(), 1).draw(3, {}, {});
+    EXPECT_EQ(draw.drawn.allFinite(), !is_written);
+  }
 }
 
 }  // namespace
