@@ -20,7 +20,7 @@ struct Drift {
       reference("radio", "radio", "whose links; without it, all"),
       real("rate", 0, -1e5, 1e5, "dB/h", "slope at the start").free().with(MUSTER_LINEAR),
       real("settling", 1e6, 1, 1e10, "s", "time in which the slope falls to 1/e").free().with(MUSTER_LOG),
-      real("start", 0, 0, 1e10, "s", "when it begins, by the clock of the run, or of the column t of data").free(),
+      real("start", 0, -1e10, 1e10, "s", "when it begins, by the clock of the run, or of the column t of data").free(),
   };
   static constexpr muster_cause cause = {
       sizeof(muster_cause),

@@ -15,7 +15,7 @@ struct Jump {
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "whose links; without it, all"),
-      real("at", 0, 0, 1e10, "s", "when, by the clock of the run, or of the column t of data").free(),
+      real("at", 0, -1e10, 1e10, "s", "when, by the clock of the run, or of the column t of data").free(),
       real("size", 0, -60, 60, "dB", "of the jump").free().with(MUSTER_LINEAR),
   };
   static constexpr muster_cause cause = {
