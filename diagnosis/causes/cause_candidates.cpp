@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "diagnosis/causes/strength_selection.hpp"
@@ -168,6 +169,62 @@ struct CandidateBuilder {
   }
 };
 
+// Atoms of one shape, of the rows that have one there.
+using AtomsOfRows = std::map<std::size_t, Index>;
+
+std::vector<AtomsOfRows> by_shape(const inference::Candidate& c) {
+  std::vector<AtomsOfRows> result;
+  const auto shape_of = [](const VectorXd& theta) { return theta.tail(theta.size() - 1); };
+  for (std::size_t k = 0; k < c.design.grid.size(); ++k) {
+    const VectorXd& theta = c.design.grid[k];
+    if (k == 0 || shape_of(theta) != shape_of(c.design.grid[k - 1])) result.emplace_back();
+    result.back()[static_cast<std::size_t>(theta[0])] = static_cast<Index>(k);
+  }
+  return result;
+}
+
+// True if both rows have the same columns at all shapes.
+bool are_twins(std::size_t one, std::size_t other, const std::vector<AtomsOfRows>& shapes,
+               const inference::Candidate& c) {
+  const auto columns = [&](Index atom) { return c.design.atoms->middleCols(atom * c.design.width, c.design.width); };
+  return std::all_of(shapes.begin(), shapes.end(), [&](const AtomsOfRows& atoms) {
+    const auto a = atoms.find(one), b = atoms.find(other);
+    if (a == atoms.end() || b == atoms.end()) return a == b;
+    return columns(a->second) == columns(b->second);
+  });
+}
+
+// Leaves out rows that do what an earlier one does, as all readings are those of the only receiver.
+void leave_out_twins(CauseShape& shape, inference::Candidate& c) {
+  const std::vector<AtomsOfRows> shapes = by_shape(c);
+  std::vector<CauseRow> rows;
+  std::map<double, double> number;  // of the rows that are kept, before and after
+  for (std::size_t row = 0; row < shape.rows.size(); ++row) {
+    const auto is_twin = [&](const auto& kept) {
+      return are_twins(static_cast<std::size_t>(kept.first), row, shapes, c);
+    };
+    if (std::any_of(number.begin(), number.end(), is_twin)) continue;
+    number[static_cast<double>(row)] = static_cast<double>(rows.size());
+    rows.push_back(shape.rows[row]);
+  }
+  if (rows.size() == shape.rows.size()) return;
+  std::vector<VectorXd> grid;
+  std::vector<Index> kept;
+  for (std::size_t k = 0; k < c.design.grid.size(); ++k) {
+    VectorXd theta = c.design.grid[k];
+    const auto row = number.find(theta[0]);
+    if (row == number.end()) continue;
+    theta[0] = row->second;
+    grid.push_back(std::move(theta));
+    for (Index j = 0; j < c.design.width; ++j) kept.push_back(static_cast<Index>(k) * c.design.width + j);
+  }
+  noise::Sheet atoms = (*c.design.atoms)(Eigen::all, kept);
+  c.design.atoms = std::make_shared<const noise::Sheet>(std::move(atoms));
+  c.design.grid = std::move(grid);
+  c.refinement.upper[0] = static_cast<double>(rows.size());
+  shape.rows = std::move(rows);
+}
+
 // Returns the reason why there is no candidate; empty if there is one.
 std::string build(const Cause& cause, const CandidateBuilder& builder, CauseSearch& out) {
   const CauseSources& s = builder.sources;
@@ -192,6 +249,8 @@ std::string build(const Cause& cause, const CandidateBuilder& builder, CauseSear
   c.design.columns = columns_at(shape, s.run, s.used);
   builder.grid(*shape, c);
   if (c.design.grid.empty()) return "not testable: no reading depends on it, or the base model takes it up";
+  // Rows of a cause without axes are also looked up by their number, be they in the grid or not.
+  if (shape->place == PlaceShape::none && !shape->axes.empty()) leave_out_twins(*shape, c);
   domain.finish(shape, c);
   out.found.push_back({shape, std::move(c)});
   return "";

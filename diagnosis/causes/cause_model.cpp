@@ -118,6 +118,20 @@ InstanceDeclaration instance_of(const Cause& cause, const std::string& name, con
   return result;
 }
 
+std::map<std::string, std::string> names_of_instances(const Cause& cause, const Simulation& world) {
+  std::map<std::string, std::string> result;
+  for (uint32_t k = 0; k < cause.plugin->param_count; ++k) {
+    const muster_param& p = cause.plugin->params[k];
+    if (p.kind != MUSTER_TEXT || !p.text || !*p.text) continue;
+    for (const auto& instance : world.instances()) {
+      if (instance->name() == p.text) result.erase(p.name);
+      if (instance->name() == p.text) break;
+      if (instance->declared().plugin == p.text) result.try_emplace(p.name, instance->name());
+    }
+  }
+  return result;
+}
+
 CauseModel::CauseModel(MeasuredWorld& whole, const std::filesystem::path& world, const std::filesystem::path& data,
                        const Library::SearchPath& plugins)
     : observable_(whole.observable()), whole_(whole.simulation()), data_(data) {
@@ -148,8 +162,11 @@ void CauseModel::put(Simulation& run, Present& present, const Cause& cause, cons
   remove(run, present);
   const Place place{run.world().file.string()};
   std::vector<InstanceDeclaration> declarations;
-  for (std::size_t k = first; k < first + count; ++k)
+  for (std::size_t k = first; k < first + count; ++k) {
     declarations.push_back(instance_of(cause, name_of(k), rows[k], cause.file() ? data_ : "", 1, place));
+    for (const auto& [text, name] : names_of_instances(cause, whole_))
+      declarations.back().attributes.push_back({text, name, place, place});
+  }
   run.share(cause.library);
   run.insert_all(std::move(declarations));
   present = {cause.id, first, count, {}, {}};

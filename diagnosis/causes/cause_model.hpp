@@ -46,6 +46,10 @@ using CauseRow = std::vector<std::string>;
 InstanceDeclaration instance_of(const Cause& cause, const std::string& name, const CauseRow& row,
                                 const std::filesystem::path& table, double linear, const Place& place);
 
+// Texts whose default is the id of a plugin ("of" radio.fading) with the name of the world's instance of it, where that
+// has another one.
+std::map<std::string, std::string> names_of_instances(const Cause& cause, const Simulation& world);
+
 // Evaluates causes on the measured links in two worlds. The bare world has only rows and their edits, for terms that
 // depend on no other instance. In the whole world, an effect is the difference that its instance makes to the expected
 // level.

@@ -29,6 +29,7 @@ CauseEstimate named(const LawSources& s, const Cause& cause, const LawTest& test
   out.tell_apart = cause.meaning().tell_apart;
   out.covariates = {"reading"};
   out.values = values_of(cause, test);
+  out.words = names_of_instances(cause, s.model.simulation());
   out.evidence = test.evidence;
   out.log_p = test.log_p;
   out.lambda = test.gain;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/pipeline/cause_estimate.hpp"
+#include "diagnosis/pipeline/declared_law_check.hpp"
 #include "diagnosis/planning/second_station.hpp"
 #include "diagnosis/radio/causes/applicability.hpp"
 #include "diagnosis/radio/causes/place_axes.hpp"
@@ -107,6 +108,24 @@ TEST(CauseShape, DataThatLastLongerThanItMaySettleLeaveItAsItIs) {
   ASSERT_TRUE(over(30));
   EXPECT_LT(over(30)->lower, over(30)->upper);
   EXPECT_FALSE(over(180));
+}
+
+TEST(CauseRows, AnInstanceIsFoundByTheNameThatItHas) {
+  const Scratch scratch;
+  const auto data = scratch.write("data.csv",
+                                  "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n"
+                                  "0,a,b,0,0,1,9,0,1,-60\n1,a,b,0,0,1,8,0,1,-59\n");
+  const auto named = [&](const std::string& name) {
+    const auto world =
+        scratch.write("world.xml",
+                      "<world name=\"w\" dt=\"0.1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/><station name=\"b\" "
+                      "at=\"9 0 1\"/><radio.multiwall tx_power=\"0\"/><radio.fading" +
+                          name + " shadowing=\"3\"/></world>\n");
+    const LinkModel model(world, data, plugins);
+    return names_of_instances(cause_on(plugins, "effect.shadowing_correlation"), model.simulation());
+  };
+  EXPECT_TRUE(named("").empty());
+  EXPECT_EQ(named(" name=\"fades\""), (std::map<std::string, std::string>{{"of", "fades"}}));
 }
 
 // One of the data's radios turns: a cause may be about it, whether the world lists it or not.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -125,6 +126,26 @@ TEST(EndedRows, HaveTheSketchOfTheirParentRow) {
   const inference::WhitenedModel model = state.whitened_model(state.design());
   inference::SparseColumns tally(state, model);
   EXPECT_GT(state.proposals(c, tally).size(), 10u);
+}
+
+// One robot hears one station: what concerns all readings concerns each radio's, and is sought once.
+TEST(Candidates, OfOneReceiverAreSoughtOnce) {
+  const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
+  const DiagnosisSetup at(hall, hall / "measured_plain.csv", plugins);
+  int waves = 0;
+  for (const CauseCandidate& c : at.sought.found) {
+    if (c.shape->place != PlaceShape::none || c.shape->axes.empty()) continue;
+    const std::set<std::string> labels = [&] {
+      std::set<std::string> result;
+      for (const Eigen::VectorXd& theta : c.candidate.design.grid) result.insert(c.candidate.label(theta));
+      return result;
+    }();
+    EXPECT_EQ(labels.size(), c.shape->rows.size()) << c.candidate.id;
+    EXPECT_EQ(c.candidate.design.atoms->cols(),
+              c.candidate.design.width * static_cast<Eigen::Index>(c.candidate.design.grid.size()));
+    waves += c.candidate.id == "effect.periodic" && labels == std::set<std::string>{"all"};
+  }
+  EXPECT_EQ(waves, 1);
 }
 
 // A radio at the edge of the known area may be beyond it.
