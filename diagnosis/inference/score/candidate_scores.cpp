@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/inference/score/sparse_columns.hpp"
@@ -21,10 +22,12 @@ class Objective {
       : state_(state),
         model_(model),
         candidate_(candidate),
-        sketched_(columns == Columns::sketched && candidate.design.sketch),
-        thin_(state, model) {}
+        sketched_(columns == Columns::sketched && candidate.design.sketch) {}
 
-  SparseColumns& thin() { return thin_; }
+  SparseColumns& thin() {
+    if (!thin_) thin_.emplace(state_, model_);
+    return *thin_;
+  }
 
   // Fall of the deviance plus twice the log prior. Impossible thetas get the lowest value, since a whole column may
   // well have a negative gain.
@@ -48,7 +51,7 @@ class Objective {
 
   // Product with the residual, and squared length, of a column with the design projected out.
   std::pair<double, double> measured(const Eigen::VectorXd& column) {
-    if (thin_.take(column)) return {thin_.along(), thin_.length()};
+    if (thin().take(column)) return {thin().along(), thin().length()};
     const Eigen::VectorXd left = model_.at.basis.rest(model_.whitener(column));
     return {left.dot(model_.at.residual), left.squaredNorm()};
   }
@@ -57,7 +60,7 @@ class Objective {
   const WhitenedModel& model_;
   const Candidate& candidate_;
   bool sketched_;
-  SparseColumns thin_;
+  std::optional<SparseColumns> thin_;  // made on first use: columns of two directions need none
 };
 
 bool far_from(const Candidate& candidate, const Eigen::VectorXd& theta, const std::vector<Eigen::VectorXd>& others) {
@@ -146,7 +149,10 @@ OrthonormalAtoms unit_atoms(const Entry& entry, const WhitenedModel& model) {
   // Columns of different rows may differ a thousandfold: one direction's are weighed by differences, which hardly
   // scatter. Of places those that concern few readings are left out.
   Eigen::VectorXf before;
-  if (entry.candidate->role.pieces.empty()) before = atoms.colwise().squaredNorm();
+  if (entry.candidate->role.pieces.empty()) {
+    before = Eigen::VectorXf::Zero(atoms.cols());
+    for (Index i = 0; i < atoms.rows(); ++i) before += atoms.row(i).cwiseAbs2();  // as they lie in memory
+  }
   model.at.basis.take_out_of(atoms);
   return {std::move(atoms), entry.candidate->design.width, before};
 }

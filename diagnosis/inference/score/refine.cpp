@@ -25,6 +25,7 @@ struct Climb {
     Climb& self = *static_cast<Climb*>(data);
     Eigen::VectorXd theta = self.best;
     for (std::size_t k = 0; k < self.free.size(); ++k) theta[self.free[k]] = x[k];
+    if (theta == self.best) return self.highest;  // as the start is, with which NLopt begins
     try {
       const double value = self.value(theta);
       if (value > self.highest) {
