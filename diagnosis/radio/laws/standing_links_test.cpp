@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "diagnosis/data/median.hpp"
@@ -287,10 +288,11 @@ WalkersTest walkers_test(const LinkReadings& readings, const VectorXd& residual)
   if (readings.t.empty()) return result;
   const Network network(readings, residual);
   // Of two readings that share their scatter, too, one counts.
+  std::set<Index> in_links;
+  for (const Link& link : network.links()) in_links.insert(link.readings.begin(), link.readings.end());
   const auto counts_twice = [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
-    return !readings.twin.empty() && readings.tx[k] > readings.rx[k] && readings.twin[k] >= 0 &&
-           std::isfinite(residual[readings.twin[k]]);
+    return !readings.twin.empty() && readings.tx[k] > readings.rx[k] && in_links.count(readings.twin[k]) > 0;
   };
   std::vector<OfLink> links;
   std::map<std::pair<int, int>, Ordered> both_ways;
