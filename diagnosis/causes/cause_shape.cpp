@@ -38,6 +38,11 @@ void CauseShape::set_one(std::size_t one, std::map<std::string, double>& paramet
 
 Index place_entries(PlaceShape place) { return place == PlaceShape::none ? 0 : place == PlaceShape::point ? 2 : 4; }
 
+bool CauseShape::has_heading_of_plan() const {
+  return std::any_of(held.begin(), held.end(),
+                     [&](const auto& value) { return (cause.parameter(value.first).flags & MUSTER_CYCLIC) != 0; });
+}
+
 std::string CauseShape::row_label(const VectorXd& theta) const {
   std::string result;
   const auto references = cause.rows();

@@ -49,8 +49,10 @@ struct CauseShape {
   // "radio/beacon1", for two "radio/beacon1 radio/beacon2"; empty if it concerns none.
   std::string row_label(const Eigen::VectorXd& theta) const;
   std::string set() const;  // of its first reference; "" without one
+  // True if it has a heading, which is the plan's.
+  bool has_heading_of_plan() const;
   // True for a point with a length, a width and the plan's heading.
-  bool is_room() const { return place == PlaceShape::point && axes.size() > 1 && !held.empty(); }
+  bool is_room() const { return place == PlaceShape::point && axes.size() > 1 && has_heading_of_plan(); }
   // True for a segment with a width, searched by its logarithm.
   bool is_strip() const { return place == PlaceShape::segment && !axes.empty() && axes[0].logarithmic; }
   Eigen::Index columns() const {

@@ -107,6 +107,9 @@ inline constexpr int runs_of_scatter = 60;
 // factor; beyond the range of these runs, from which readings scatter otherwise; chosen;
 // OwnDraws.ScatterAsTheWorldSays
 inline constexpr double other_scatter = 1.2;
+// standard errors; of one more draw, by which single readings must scatter otherwise (p < 1e-4 of 11 degrees of
+// freedom); derived; OwnDraws.SingleReadingsScatterAsTheWorldSays
+inline constexpr double other_single_t = 6;
 // dB; of the world's own draws, from which it says how readings scatter; chosen; none
 inline constexpr double least_stated_scatter = 0.5;
 // gaps; the longest ones that are pauses of a run, not its sampling; chosen;
@@ -121,6 +124,9 @@ inline constexpr double least_turn = 0.2;
 // share; of a radio's readings, of those that it sends and of those that it receives, from which it does both; chosen;
 // CauseRows.SendingIsToldFromReceivingWhereARadioDoesBoth
 inline constexpr double both_ends_share = 0.05;
+// m; mean extent of an area, from which what stands in it is sought larger in proportion; chosen;
+// Outdoors.AWallIsFoundThatIsTenTimesAsLong
+inline constexpr double extent_of_a_building = 60;
 // m; beyond which a step is no way that was driven; chosen; none
 inline constexpr double longest_step = 2;
 // m; range of heights from which these vary; chosen; none
@@ -324,6 +330,12 @@ inline constexpr double in_proportion = 0.25;
 
 // laws: fading
 
+// m; decorrelation distance below which a field is one of fades, not of what is in the way; chosen; none
+inline constexpr double longest_fade = 0.5;
+// dB; of such a field, from which its deep places look like readings that are off; chosen; none
+inline constexpr double least_fade = 2;
+// factor; by which the field must outreach a fade of the world's for single readings to tell of fades; chosen; none
+inline constexpr double fades_in_field = 2;
 // nats; behind the best shape of the field beyond which a shape is dropped; chosen; none
 inline constexpr double unlikely_shape_nats = 6;
 // factor; by which gains of a fading law are wider than chi-square; measured; none

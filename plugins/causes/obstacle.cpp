@@ -21,7 +21,7 @@ struct Obstacle {
   static constexpr Param params[] = {
       real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),
       real("y", 0, -1e6, 1e6, "m", "middle, north").required().free().with(MUSTER_NORTH),
-      real("radius", 0.5, 0.1, 5, "m", "radius").free().with(MUSTER_LOG),
+      real("radius", 0.5, 0.1, 1e3, "m", "radius").free().with(MUSTER_LOG),
       real("loss", 0, 0, 60, "dB", "of a link through its middle").free().with(MUSTER_LINEAR),
       real("height", 2.7, 0.01, 1e4, "m", "up to which it reaches"),
   };

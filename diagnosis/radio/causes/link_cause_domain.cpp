@@ -43,9 +43,9 @@ std::pair<std::vector<std::string>, std::set<std::string>> covariates_of(const C
   if (const std::string column = own_column(shape.cause); !column.empty()) return {{column}, {column}};
   if (needs(shape.cause, "t")) return {{"time"}, {"time", "time_per_tx"}};
   if (needs(shape.cause, "rx_yaw")) return {{"bearing"}, {"bearing", "heading"}};
-  if (shape.place != PlaceShape::none || shape.set() == "wall") return {{"map"}, {"position", "txbearing"}};
+  if (shape.place != PlaceShape::none || shape.set() == "wall") return {{"map"}, {"position", "txbearing", "height"}};
   if (shape.set() == "radio") return {{"link"}, {"link", "txbearing"}};
-  return {{"logd"}, {"logd", "level"}};
+  return {{"logd"}, {"logd", "level", "height"}};
 }
 
 }  // namespace
@@ -83,6 +83,11 @@ bool LinkCauseDomain::tells_carrier() const {
 void LinkCauseDomain::hold(CauseShape& shape) const {
   for (uint32_t k = 0; k < shape.cause.plugin->param_count; ++k) {
     const muster_param& p = shape.cause.plugin->params[k];
+    // Hills and houses reach above all radios.
+    const bool is_a_height = shape.place != PlaceShape::none && std::string_view(p.unit) == "m" &&
+                             !(p.flags & (MUSTER_FREE | MUSTER_EAST | MUSTER_NORTH));
+    if (is_a_height && geometry_.scale > 1 && shape.cause.meaning().kind == MUSTER_TERM)
+      shape.held[p.name] = std::max(p.value, geometry_.height.high + 1);
     if ((p.flags & MUSTER_CYCLIC) && !(p.flags & MUSTER_FREE)) shape.held[p.name] = geometry_.plan_angle;
     if (std::string_view(p.unit) != "Hz") continue;
     if (const auto carrier = model_.carrier(); carrier && (carrier->is_written || !tells_carrier()))
@@ -104,15 +109,16 @@ void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement
   // A radio may lie outside the mapped and driven area.
   const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? thresholds::beyond_map : 0;
   const Index places = place_entries(shape.place);
+  const double scale = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? 1 : geometry_.scale;
   if (places >= 2) {
     out.lower.segment(1, 2) << geometry_.east.low - around, geometry_.north.low - around;
     out.upper.segment(1, 2) << geometry_.east.high + around, geometry_.north.high + around;
-    out.step.segment(1, 2).setConstant(places == 4 ? 0.4 : 0.3);
+    out.step.segment(1, 2).setConstant(scale * (places == 4 ? 0.4 : 0.3));
   }
   if (places == 4) {
     out.lower.segment(3, 2) << 0.8, -4;
-    out.upper.segment(3, 2) << (shape.is_strip() ? 40 : 9), 4;
-    out.step.segment(3, 2) << 0.8, 0.12;
+    out.upper.segment(3, 2) << scale * (shape.is_strip() ? 40 : 9), 4;
+    out.step.segment(3, 2) << scale * 0.8, 0.12;
   }
   if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)
     out.step.segment(1, places + sizes).setZero();
@@ -176,13 +182,19 @@ void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candida
   c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < thresholds::same_place ? 0.0 : 1.0; };
 }
 
-// Proposes walls and obstacles by a scan of all possible places.
+// Proposes walls and obstacles by a scan of all possible places, in units of the plan's scale.
 void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c) const {
   const bool wall = shape.place == PlaceShape::segment && !shape.is_strip();
   if (!wall && !(shape.place == PlaceShape::point && shape.axes.size() == 1)) return;
   const auto link = [&](Index reading) -> std::array<double, 4> {
     const auto& [a, b] = model_.ends()[static_cast<std::size_t>(used_[static_cast<std::size_t>(reading)])];
-    return {a.x, a.y, b.x, b.y};
+    const double unit = geometry_.scale;
+    return {a.x / unit, a.y / unit, b.x / unit, b.y / unit};
+  };
+  const MeasurementGeometry own = in_own_unit(geometry_);
+  const auto in_metres = [place = shape.place, unit = geometry_.scale](std::vector<VectorXd> thetas) {
+    for (VectorXd& theta : thetas) theta = in_unit(place, std::move(theta), 1 / unit);
+    return thetas;
   };
   // What stands in the way is in the way of both twins: their differences are links without length, which meet nothing.
   constexpr std::array<double, 4> nowhere{};
@@ -201,13 +213,15 @@ void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c)
       readings.links.push_back(nowhere);
     }
     readings.first.push_back(readings.links.size());
-    c.refinement.proposed =
-        [sweep = std::make_shared<const SegmentScan>(geometry_, std::move(links), std::move(readings)),
-         first = c.design.grid[0]](inference::Tally& tally) { return shaped_as(first, (*sweep)(tally)); };
+    c.refinement.proposed = [sweep = std::make_shared<const SegmentScan>(own, std::move(links), std::move(readings)),
+                             in_metres, first = c.design.grid[0]](inference::Tally& tally) {
+      return shaped_as(first, in_metres((*sweep)(tally)));
+    };
   } else {
-    c.refinement.step.tail<3>().setConstant(0.1);  // m: maxima are narrow and close together
-    c.refinement.proposed = [sweep = std::make_shared<const DiskScan>(geometry_, std::move(links))](
-                                inference::Tally& tally) { return (*sweep)(tally); };
+    // Maxima are narrow and close together.
+    c.refinement.step.tail<3>() << 0.1 * geometry_.scale, 0.1 * geometry_.scale, 0.1;
+    c.refinement.proposed = [sweep = std::make_shared<const DiskScan>(own, std::move(links)),
+                             in_metres](inference::Tally& tally) { return in_metres((*sweep)(tally)); };
   }
 }
 
@@ -222,9 +236,17 @@ void LinkCauseDomain::finish(const std::shared_ptr<const CauseShape>& shape, inf
   };
   if (r.any()) let_scan(*shape, c);
   if (shape->place == PlaceShape::point && shape->axes.size() == 1)
-    r.moves = [geometry = geometry_](const VectorXd& t) { return moves_of_disk(geometry, t); };
+    r.moves = [own = in_own_unit(geometry_), unit = geometry_.scale](const VectorXd& t) {
+      Eigen::MatrixXd moves = moves_of_disk(own, in_unit(PlaceShape::point, t, unit));
+      moves.middleRows(1, 2) *= unit;
+      return moves;
+    };
   if (shape->place != PlaceShape::segment) return;
-  r.moves = [geometry = geometry_](const VectorXd& t) { return moves_of_segment(geometry, t); };
+  r.moves = [own = in_own_unit(geometry_), unit = geometry_.scale](const VectorXd& t) {
+    Eigen::MatrixXd moves = moves_of_segment(own, in_unit(PlaceShape::segment, t, unit));
+    moves.middleRows(1, 3) *= unit;
+    return moves;
+  };
   r.belief = [geometry = geometry_](const VectorXd& t) { return belief_in_segment(geometry, t); };
   c.role.spanning = [id = c.id, first = c.design.grid[0]](const std::vector<inference::Piece>& pieces) {
     return shaped_as(first, spans(pieces, id));

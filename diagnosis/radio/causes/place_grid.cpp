@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/radio/causes/place_moves.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -14,7 +15,8 @@ using Eigen::VectorXd;
 
 using std::numbers::pi;
 
-std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s, bool large) {
+std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& survey, bool large) {
+  const MeasurementGeometry s = in_own_unit(survey);
   const double area = s.east.length() * s.north.length();
   const double spacing = large ? std::max(2.0, std::sqrt(area / 100)) : std::max(0.8, std::sqrt(area / 500));
   const std::vector<double> lengths = large ? std::vector<double>{5, 10} : std::vector<double>{1.3, 2.2, 3.6, 5.2};
@@ -31,6 +33,7 @@ std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s
       }
     }
   }
+  for (VectorXd& place : result) place.head(shape == PlaceShape::segment ? 3 : 2) *= survey.scale;
   return result;
 }
 

@@ -13,7 +13,8 @@ using std::numbers::pi;
 
 using Ways = std::vector<std::array<double, 4>>;
 
-constexpr double longest_piece = thresholds::longest_step;  // m, of a path
+// m, of a driven path.
+double longest_piece(const MeasurementGeometry& s) { return thresholds::longest_step * s.scale; }
 
 // First path that starts at most `reach` west of x; paths are sorted by x.
 Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
@@ -22,8 +23,26 @@ Ways::const_iterator from_west_of(const Ways& ways, double x, double reach) {
 
 }  // namespace
 
+MeasurementGeometry in_own_unit(MeasurementGeometry s) {
+  for (Span* span : {&s.east, &s.north}) span->low /= s.scale, span->high /= s.scale;
+  for (auto& way : s.ways) {
+    for (double& at : way) at /= s.scale;
+  }
+  for (auto& place : s.standing) {
+    for (double& at : place) at /= s.scale;
+  }
+  s.scale = 1;
+  return s;
+}
+
+Eigen::VectorXd in_unit(PlaceShape place, Eigen::VectorXd theta, double scale) {
+  theta.segment(1, place == PlaceShape::segment ? 3 : 2) /= scale;
+  if (place == PlaceShape::point && theta.size() > 3) theta[3] -= std::log(scale);
+  return theta;
+}
+
 int driven_across(const MeasurementGeometry& s, double x, double y, double length, double angle) {
-  const double reach = length / 2 + longest_piece;
+  const double reach = length / 2 + longest_piece(s);
   const double ex = length / 2 * std::cos(angle), ey = length / 2 * std::sin(angle);
   const auto side = [](double ax, double ay, double bx, double by, double px, double py) {
     return (bx - ax) * (py - ay) - (by - ay) * (px - ax) > 0;
@@ -39,7 +58,7 @@ int driven_across(const MeasurementGeometry& s, double x, double y, double lengt
 }
 
 bool driven_through(const MeasurementGeometry& s, double x, double y, double radius) {
-  const double reach = radius + longest_piece;
+  const double reach = radius + longest_piece(s);
   for (auto at = from_west_of(s.ways, x, reach); at != s.ways.end() && at->front() - x <= reach; ++at) {
     const Eigen::Vector2d from(at->front() - x, (*at)[1] - y), way((*at)[2] - at->front(), (*at)[3] - (*at)[1]);
     if (std::abs(from.y()) > reach) continue;

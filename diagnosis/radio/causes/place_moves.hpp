@@ -6,6 +6,12 @@
 
 namespace muster::diagnosis {
 
+// The geometry with lengths in units of its scale.
+MeasurementGeometry in_own_unit(MeasurementGeometry geometry);
+// A theta with lengths in such units, or with `scale` inverted back in metres: of a point with a logarithm of a radius,
+// or of a segment.
+Eigen::VectorXd in_unit(PlaceShape place, Eigen::VectorXd theta, double scale);
+
 // Number of driven paths that cross a segment.
 int driven_across(const MeasurementGeometry& geometry, double x, double y, double length, double angle);
 // True if a driven path leads through the disk, within 0.7 of its radius.

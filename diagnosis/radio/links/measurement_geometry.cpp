@@ -143,7 +143,37 @@ struct Trail {
   }
 };
 
-// A step of more than 2 m is no driven path.
+// From the area over which radios move, or else over which they stand: a far gateway makes no yard larger.
+double scale_of(const LinkModel& model) {
+  struct Area {
+    Span east, north;
+    bool is_empty = true;
+
+    void widen_to(double x, double y) {
+      widen(east, x, is_empty);
+      widen(north, y, is_empty);
+      is_empty = false;
+    }
+  };
+  std::map<int, Area> of_radio;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) of_radio[end.radio].widen_to(end.x, end.y);
+  }
+  Area all, moving;
+  for (const auto& [radio, area] : of_radio) {
+    const bool moves = area.east.length() + area.north.length() > thresholds::moving_extent;
+    for (const double x : {area.east.low, area.east.high}) {
+      for (const double y : {area.north.low, area.north.high}) {
+        all.widen_to(x, y);
+        if (moves) moving.widen_to(x, y);
+      }
+    }
+  }
+  const Area& area = moving.is_empty ? all : moving;
+  return std::max(1.0, std::sqrt(area.east.length() * area.north.length()) / thresholds::extent_of_a_building);
+}
+
+// A step of more than 2 m is no driven path, nor is one that is as long for its area.
 void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
   const bool first = trail.places.empty();
   widen(trail.east, end.x, first);
@@ -155,7 +185,7 @@ void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
     const auto [x, y] = trail.places.back();
     const double moved = std::hypot(end.x - x, end.y - y);
     if (moved < thresholds::least_step) return;
-    if (moved < thresholds::longest_step) survey.ways.push_back({x, y, end.x, end.y});
+    if (moved < thresholds::longest_step * survey.scale) survey.ways.push_back({x, y, end.x, end.y});
   }
   trail.places.push_back({end.x, end.y});
 }
@@ -220,18 +250,23 @@ MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& 
   Span heading;  // of the receiving ends, from the first of them
   double first_heading = 0;
   bool first = true;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) {
+      widen(survey.east, end.x, first);
+      widen(survey.north, end.y, first);
+      widen(survey.height, end.z, first);
+      first = false;
+    }
+  }
+  survey.scale = scale_of(model);
   for (const std::size_t row : by_time(data)) {
     const auto& ends = model.ends()[row];
     for (std::size_t k = 0; k < ends.size(); ++k) {
       const End& end = ends[k];
       follow(trails[end.radio], end, survey);
       ++trails[end.radio].readings[k];
-      widen(survey.east, end.x, first);
-      widen(survey.north, end.y, first);
-      widen(survey.height, end.z, first);
       if (k == 1 && distances.empty()) first_heading = end.yaw;
       if (k == 1) widen(heading, turned(end.yaw, first_heading), distances.empty());
-      first = false;
     }
     if (survey.has_time && !data.is_wild(row)) times.push_back(data.t[row]);
     distances.push_back(std::hypot(std::hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y), ends[0].z - ends[1].z));

@@ -33,6 +33,9 @@ struct MeasurementGeometry {
   std::vector<std::array<double, 4>> ways;
   std::vector<OrientedRectangle> strips;  // between parallel walls, possible corridors; the longest first
   std::vector<OrientedRectangle> rooms;   // with at least one in 50 readings of moving radios
+  // By how much things are larger than in a building: one there, more where radios move over a mean extent of above 60
+  // m.
+  double scale = 1;
 };
 
 MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data);

@@ -1,0 +1,83 @@
+// What stands outdoors is as much larger as the area is: a wall of 30 m, and a hill, are found as things of a room are.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "diagnosis/pipeline/diagnose.hpp"
+#include "diagnosis/radio/links/link_model.hpp"
+#include "muster/random.hpp"
+#include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/worlds.hpp"
+#include "text/number.hpp"
+
+namespace muster::diagnosis {
+namespace {
+
+std::filesystem::path field_with(const Scratch& scratch, const std::string& name, const std::string& more) {
+  std::filesystem::path file = scratch / name;
+  std::ofstream(file) << "<world name=\"field\" dt=\"0.1\" until=\"1\" seed=\"7\">"
+                      << "<station name=\"west\" at=\"-10 100 6\"/><station name=\"south\" at=\"160 -20 5\"/>"
+                      << "<station name=\"east\" at=\"320 150 8\"/><station name=\"rover\" at=\"0 0 1\"/>"
+                      << "<radio.multiwall tx_power=\"10\" l0=\"35\" n=\"2.5\"/>"
+                      << "<radio.fading shadowing=\"2\" decorrelation=\"12\" rician_k=\"8\" per_reading=\"true\"/>"
+                      << "<radio.receiver sensitivity=\"-200\"/>" << more << "</world>";
+  return file;
+}
+
+// Lanes 20 m apart over 300 x 200 m but for the place of the thing, a reading of each station every 6 m.
+Diagnosis driven_with(const std::string& thing) {
+  const Scratch scratch;
+  constexpr const char* ends = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]";
+  std::vector<std::string> rows;
+  double t = 0;
+  for (double y = 5; y < 200; y += 20) {
+    for (double x = 0; x < 300; x += 6, t += 2) {
+      const double at = std::lround(y / 20) % 2 ? 300 - x : x;
+      if (std::hypot(at - 150, y - 100) < 32) continue;
+      for (const char* station : {"west,rover,-10,100,6", "south,rover,160,-20,5", "east,rover,320,150,8"})
+        rows.push_back(print_real(t) + ',' + station + ',' + print_real(at) + ',' + print_real(y) + ",1");
+    }
+  }
+  const auto write = [&](const std::string& name, const std::string& column, const auto& level) {
+    std::ofstream out(scratch / name);
+    out << ends << column << '\n';
+    for (std::size_t i = 0; i < rows.size(); ++i) out << rows[i] << level(static_cast<Eigen::Index>(i)) << '\n';
+    return scratch / name;
+  };
+  const auto asked = write("asked.csv", "", [](Eigen::Index) { return ""; });
+  const Eigen::VectorXd drawn = LinkModel(field_with(scratch, "true.xml", thing), asked, plugins).drawn();
+  const auto measured =
+      write("measured.csv", ",rssi[dBm]", [&](Eigen::Index i) { return ',' + print_real(std::round(drawn[i])); });
+  return diagnose(field_with(scratch, "world.xml", ""), measured, plugins);
+}
+
+double value_of(const CauseEstimate& cause, const std::string& name) {
+  for (const CauseValue& v : cause.values) {
+    if (v.name == name) return v.value;
+  }
+  return NAN;
+}
+
+TEST(Outdoors, AWallIsFoundThatIsTenTimesAsLong) {
+  const Diagnosis found = driven_with(
+      "<effect.unmapped_wall x0=\"150\" y0=\"85\" x1=\"150\" y1=\"115\" loss=\"10\" edge=\"0\" height=\"20\"/>");
+  ASSERT_FALSE(found.causes.empty());
+  const CauseEstimate& wall = found.causes[0];
+  EXPECT_EQ(wall.id, "effect.unmapped_wall");
+  for (const char* x : {"x0", "x1"}) EXPECT_NEAR(value_of(wall, x), 150, 20) << x;
+  EXPECT_NEAR(std::abs(value_of(wall, "y1") - value_of(wall, "y0")), 30, 15);
+}
+
+TEST(Outdoors, AHillIsFound) {
+  const Diagnosis found = driven_with("<effect.obstacle x=\"150\" y=\"100\" radius=\"22\" loss=\"14\" height=\"30\"/>");
+  ASSERT_FALSE(found.causes.empty());
+  const CauseEstimate& hill = found.causes[0];
+  EXPECT_EQ(hill.id, "effect.obstacle");
+  EXPECT_NEAR(value_of(hill, "x"), 150, 15);
+  EXPECT_NEAR(value_of(hill, "y"), 100, 15);
+  EXPECT_NEAR(value_of(hill, "radius"), 22, 10);
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
