@@ -162,6 +162,7 @@ struct UnstatedField {
 struct OtherScatter {
   double measured = 0;         // dB, about the fitted world
   double least = 0, most = 0;  // dB, of the world's own draws
+  bool of_single = false;      // beside what neighbouring readings share
 };
 
 struct Diagnosis {
@@ -176,6 +177,7 @@ struct Diagnosis {
   ReceiverChecks receiver;  // properties of the receiver, and soundness of the record
   double residual_sd = 0;   // dB, of the fitted world
   noise::Covariance noise;
+  double time_unit = 0;  // s: of one unit of its decorrelation distance, where errors are correlated over time
   std::optional<UnstatedField> unstated_field;
   std::optional<Stays> stays;
   std::optional<OtherScatter> other_scatter;  // sought where nothing else was found

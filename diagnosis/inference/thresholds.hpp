@@ -259,6 +259,11 @@ inline constexpr int steps_over_shares = 6;
 inline constexpr double hopeless_family_nats = 50;
 // share; of rows whose site has others, above which a share fixed at sites is fitted; chosen; none
 inline constexpr double recurring_share = 0.1;
+// moments; of a series, from which errors may be correlated over time; chosen; none
+inline constexpr double fewest_moments = 8;
+// nats; by which errors over time must be likelier than those over places; chosen;
+// OverTime.IsChosenWhereEachSiteWanders
+inline constexpr double over_time_nats = 5;
 
 // assess
 

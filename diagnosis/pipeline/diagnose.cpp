@@ -95,7 +95,10 @@ struct Diagnosed {
       keep_notes_of_given(world, found, folder.path(), out);
       if (watch.stop() || cause.values.empty()) return out;
       if (before && is_worse(out, *before)) {
-        before->causes.erase(rest_of(cause, *before));
+        const auto rest_before = rest_of(cause, *before);
+        rest_before->status = inference::Status::suspected;
+        rest_before->doubt = "the world put right for it, too, predicts what was left out worse";
+        in_order(*before);
         return std::move(*before);
       }
       const auto rest = rest_of(cause, out);

@@ -26,6 +26,7 @@
 #include "diagnosis/radio/laws/law_causes.hpp"
 #include "diagnosis/radio/links/measurement_geometry.hpp"
 #include "diagnosis/radio/links/moving_end.hpp"
+#include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -57,11 +58,38 @@ bool is_burst(const CauseEstimate& c, const std::vector<Cause>& causes) {
                      [&](const Cause& cause) { return cause.id == c.id && cause.plugin->burst; });
 }
 
+// What was heard of readings that are lost the oftener the weaker they are is a biased sample of all. The floor below
+// which they are lost is seen by just that.
+void doubt_where_lost(const MissingData& missing, const std::vector<Cause>& causes, Diagnosis& out) {
+  const double all = static_cast<double>(out.readings + missing.count),
+               share = static_cast<double>(missing.count) / std::max(all, 1.0);
+  if (missing.censored || !missing.rises() || share < thresholds::biased_share) return;
+  const auto is_floor = [&](const CauseEstimate& c) {
+    return std::any_of(causes.begin(), causes.end(), [&](const Cause& cause) {
+      return cause.id == c.id && clips(*cause.plugin, MUSTER_BELOW, true);
+    });
+  };
+  for (CauseEstimate& c : out.causes) {
+    if (c.doubt.empty() && !is_floor(c))
+      c.doubt = fmt::format(
+          "{:.0f} % of the readings are lost, and more where less is expected: those that were heard "
+          "are a biased sample",
+          100 * share);
+  }
+}
+
 }  // namespace
 
 void in_order(Diagnosis& out) {
-  std::stable_sort(out.causes.begin(), out.causes.end(), [](const CauseEstimate& a, const CauseEstimate& b) {
-    const auto gain = [](const CauseEstimate& c) { return c.held_out ? c.held_out->gain : 0; };
+  // Where each radio has one place, a place that is left out takes all with it that would tell of its radio.
+  const auto gain = [&](const CauseEstimate& c) {
+    double result = c.held_out ? c.held_out->gain : 0;
+    for (const inference::Elsewhere& e : c.elsewhere) {
+      if (out.time_unit > 0) result = std::max(result, e.held_out.gain);
+    }
+    return result;
+  };
+  std::stable_sort(out.causes.begin(), out.causes.end(), [&](const CauseEstimate& a, const CauseEstimate& b) {
     return std::tuple(a.status, !a.doubt.empty(), -gain(a), -a.lambda) <
            std::tuple(b.status, !b.doubt.empty(), -gain(b), -b.lambda);
   });
@@ -95,6 +123,7 @@ Diagnosis Diagnoser::run(const Diagnosis* given, bool by_itself) {
   setup_.run->clear();
   Diagnosis out = summed_up(result, setup_.sought, search.state());
   if (given) begin_as_given(*given, by_itself, {setup_, search.state(), measured(search.state())}, out);
+  doubt_where_lost(setup_.fitted.missing, setup_.causes, out);
   watch_.at("working out what to measure next");
   if (!watch_.stop())
     add_advice(search, out, setup_.sought, {world_, plugins_, setup_.model, setup_.data}, setup_.base,
@@ -119,24 +148,6 @@ OwnWorldVerdict Diagnoser::in_own_worlds(const Diagnosis& found) {
   return judged_in_own_worlds(setup_, found);
 }
 
-namespace {
-
-// What was heard of readings that are lost the oftener the weaker they are is a biased sample of all.
-void doubt_where_lost(const MissingData& missing, Diagnosis& out) {
-  const double all = static_cast<double>(out.readings + missing.count),
-               share = static_cast<double>(missing.count) / std::max(all, 1.0);
-  if (missing.censored || !missing.rises() || share < thresholds::biased_share) return;
-  for (CauseEstimate& c : out.causes) {
-    if (c.doubt.empty())
-      c.doubt = fmt::format(
-          "{:.0f} % of the readings are lost, and more where less is expected: those that were heard "
-          "are a biased sample",
-          100 * share);
-  }
-}
-
-}  // namespace
-
 Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearch& causes,
                                const inference::ModelState& state) {
   Diagnosis out;
@@ -151,6 +162,7 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
   for (const std::string& blind : setup_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
   out.residual_sd = setup_.fitted.residual_sd;
   out.noise = result.noise.covariance;
+  out.time_unit = state.time_unit();
   out.unstated_field = unstated_field(setup_, state, out.noise);
   if (result.stays)
     out.stays =
@@ -180,9 +192,8 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
     const auto [finding, candidate] = simplest(f, *cause, causes, state, coefficients);
     out.causes.push_back(cause_estimate(finding, *candidate));
     out.causes.back().sought_as = f.id;
-    out.causes.back().doubt = doubt_by_map(*candidate->shape, out.causes.back(), setup_.model);
-    if (out.causes.back().doubt.empty())
-      out.causes.back().doubt = doubt_by_place(*candidate, f.alternatives, causes.found);
+    out.causes.back().words.merge(names_of_instances(candidate->shape->cause, setup_.model.simulation()));
+    out.causes.back().doubt = doubt_by_place(*candidate, f.alternatives, causes.found);
     out.causes.back().effect = effect_of(state, candidate->candidate, finding);
     places.push_back(places_of(*candidate->shape, finding));
     give_files(*candidate->shape, setup_.data, out.causes.back());
@@ -197,6 +208,8 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
   out.fitted = setup_.base.mean + setup_.base.slopes * (alone.coefficients(state.base().cols()) - setup_.base.values);
   out.checks = result.checks;
   add_what_scatters(state, out);
+  doubt_by_maps(causes, out);
+  in_order(out);
   out.stairs = result.stairs;
   out.world_values = world_values(state, setup_.base.paths, coefficients, setup_.model);
   for (WorldValue& v : out.world_values) {
@@ -205,8 +218,16 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
                                   [&](const FitParameter& p) { return p.path == v.path && !p.identifiable; });
   }
   doubt_at_bounds(out);
-  doubt_where_lost(setup_.fitted.missing, out);
   return out;
+}
+
+// Of the places as they are told: fitted jointly with the world.
+void Diagnoser::doubt_by_maps(const CauseSearch& causes, Diagnosis& out) const {
+  for (CauseEstimate& c : out.causes) {
+    const auto sought = std::find_if(causes.found.begin(), causes.found.end(),
+                                     [&](const CauseCandidate& one) { return one.candidate.id == c.id; });
+    if (c.doubt.empty() && sought != causes.found.end()) c.doubt = doubt_by_map(*sought->shape, c, setup_.model);
+  }
 }
 
 std::vector<AddedRadio> Diagnoser::added_radios() const {
@@ -296,7 +317,7 @@ void Diagnoser::add_what_scatters(const inference::ModelState& state, Diagnosis&
       c.doubt = "what differs from stay to stay has no name yet, and may be all that it explains";
   }
   in_order(out);
-  if (std::string_view(out.verdict()) == "adequate") out.other_scatter = other_scatter(setup_);
+  if (std::string_view(out.verdict()) == "adequate") out.other_scatter = other_scatter(setup_, state);
 }
 
 VectorXd Diagnoser::measured(const inference::ModelState& state) const {

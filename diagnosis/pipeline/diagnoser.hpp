@@ -33,6 +33,7 @@ class Diagnoser {
  private:
   Diagnosis summed_up(const inference::Result& result, const CauseSearch& causes, const inference::ModelState& state);
   std::vector<AddedRadio> added_radios() const;
+  void doubt_by_maps(const CauseSearch& causes, Diagnosis& out) const;
   void doubt_at_bounds(Diagnosis& out) const;
   std::pair<inference::Finding, const CauseCandidate*> simplest(const inference::Finding& f,
                                                                 const CauseCandidate& cause, const CauseSearch& causes,

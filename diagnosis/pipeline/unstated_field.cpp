@@ -6,6 +6,8 @@
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/fit.hpp"
+#include "diagnosis/radio/laws/law_sources.hpp"
+#include "diagnosis/radio/laws/shadowing_test.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
@@ -42,11 +44,33 @@ double drawn_by_the_world(const DiagnosisSetup& at, const inference::ModelState&
   return most;
 }
 
+// The scatter of single readings beside what neighbours share, against that of draws of the world, fitted alike: a t
+// test of one more draw.
+std::optional<OtherScatter> other_scatter_of_single(const DiagnosisSetup& at, const inference::ModelState& state) {
+  constexpr int n = thresholds::field_draws;
+  const LawPart law = stated_law(at.model).base;
+  const bool says = law.law && law.law->apart(law.params) == 0;  // fades of places are in the field, too
+  if (!says || state.time_unit() > 0 || !at.layout->readings().twin.empty()) return {};
+  Eigen::VectorXd logs(n);
+  for (int k = 0; k < n; ++k) {
+    const WorldDraw draw = at.draws.draw(static_cast<uint64_t>(k), {}, {});
+    const VectorXd errors = (draw.drawn - draw.expected)(at.used.rows);
+    if (!errors.allFinite()) return {};
+    logs[k] = fitted_to(state, state.rows().mean(errors)).theta[2] / 2;
+  }
+  const double mean = logs.mean(),
+               spread = std::sqrt(1e-4 + (logs.array() - mean).square().sum() / (n - 1) * (1 + 1.0 / n));
+  const double measured = state.fit.covariance.theta[2] / 2, off = measured - mean;
+  if (std::abs(off) < std::log(thresholds::other_scatter) || std::abs(off) < thresholds::other_single_t * spread)
+    return {};
+  return OtherScatter{std::exp(measured), std::exp(logs.minCoeff()), std::exp(logs.maxCoeff()), true};
+}
+
 }  // namespace
 
 std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const inference::ModelState& state,
                                             const noise::Covariance& noise) {
-  if (drawn_field(at.model).shadowing > 0) return {};
+  if (drawn_field(at.model).shadowing > 0 || state.time_unit() > 0) return {};
   const noise::StatedField field = noise::stated_by(noise, state.within());
   if (!(field.shadowing > thresholds::unstated_shadowing) || !is_seen(state) ||
       drawn_by_the_world(at, state, noise) > thresholds::drawn_field_share * field.shadowing)
@@ -54,7 +78,7 @@ std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const infe
   return UnstatedField{field.shadowing, field.decorrelation, std::sqrt(noise.reading_variance())};
 }
 
-std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at) {
+std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at, const inference::ModelState& state) {
   // A fit takes up a part of a wide field, and none of what differs from place to place: the least scatter is that
   // beside the world's own parameters, the most that about the declared ones.
   const noise::Basis own = noise::basis_of(at.base.slopes(at.used.rows, Eigen::all));
@@ -71,7 +95,8 @@ std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at) {
     result.most = std::max(result.most, scatter(errors));
     const bool within = result.measured > result.least / thresholds::other_scatter &&
                         result.measured < result.most * thresholds::other_scatter;
-    if (within || result.least < thresholds::least_stated_scatter) return {};
+    if (result.least < thresholds::least_stated_scatter) return {};
+    if (within) return other_scatter_of_single(at, state);
   }
   return result;
 }

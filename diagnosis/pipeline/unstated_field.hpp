@@ -15,6 +15,6 @@ std::optional<UnstatedField> unstated_field(const DiagnosisSetup& at, const infe
 // The scatter of the readings about the fitted world, where it lies far outside that of the world's own draws;
 // nothing where the world draws none. The laws of single readings may not be testable, and shadowing may pass for the
 // noise of readings that never repeat a place: all of it together is always seen.
-std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at);
+std::optional<OtherScatter> other_scatter(const DiagnosisSetup& at, const inference::ModelState& state);
 
 }  // namespace muster::diagnosis

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/radio/thresholds.hpp"
 #include "diagnosis/report/abscissa.hpp"
 #include "diagnosis/report/advice.hpp"
 #include "diagnosis/report/bins.hpp"
@@ -21,7 +22,7 @@ constexpr Index most_dots = 4000;
 constexpr double least_side = 1;  // m, of a block
 
 std::vector<int> blocks_for(const Diagnosis& d) {
-  return blocks_of(places_of(d.seen), std::max(3 * d.noise.decorrelation(), least_side));
+  return blocks_of(places_of(d.seen), d.time_unit > 0 ? least_side : std::max(3 * d.noise.decorrelation(), least_side));
 }
 
 struct Curve {
@@ -89,6 +90,8 @@ void add_geometry(const diagnosis::RowSummary& rows, std::vector<Along>& out) {
   if (!places.vary()) return;
   out.push_back({"x", "m", "~position", places.place.row(0).transpose()});
   out.push_back({"y", "m", "~position", places.place.row(1).transpose()});
+  const VectorXd z = places.place.row(2).transpose();
+  if (z.maxCoeff() - z.minCoeff() > diagnosis::thresholds::least_climb) out.push_back({"height", "m", "~height", z});
 }
 
 std::vector<Along> everything(const diagnosis::RowSummary& rows) {

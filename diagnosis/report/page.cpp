@@ -213,7 +213,7 @@ std::string world(const Diagnosis& d) {
   }
   std::string out = heading("The world's own parameters, beside the causes") + "<div class=\"card\">";
   out += table({{"parameter"}, {"value", true}, {"95 %", true}}, rows, "values");
-  out += paragraph(noise_in_words(d.noise));
+  out += paragraph(noise_in_words(d.noise, d.time_unit));
   for (const std::string& note : d.notes) out += paragraph("Note: " + note, "soft");
   return out + "</div>\n";
 }

@@ -205,7 +205,7 @@ std::string world(const Diagnosis& d) {
         quantity(v.value, half, v.unit) + " +- " + rounded(half, half) + (v.at_bound ? "  (at its bound)" : "");
     text += wrapped(fmt::format("{:<28} {}", v.path, v.identifiable ? value : "not identifiable"), 2, 4);
   }
-  text += wrapped(noise_in_words(d.noise), 2, 4);
+  text += wrapped(noise_in_words(d.noise, d.time_unit), 2, 4);
   for (const std::string& note : d.notes)
     if (!asks(note)) text += wrapped("note: " + note, 2, 4);
   return text;

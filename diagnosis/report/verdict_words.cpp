@@ -24,8 +24,9 @@ std::string covariates_of(const Diagnosis& d) {
 }
 
 std::string scatter_in_words(const diagnosis::OtherScatter& scatter) {
-  return fmt::format("readings scatter by {:.1f} dB, where the world says {:.1f} to {:.1f} dB", scatter.measured,
-                     scatter.least, scatter.most);
+  return fmt::format("{}readings scatter by {:.1f} dB, where the world says {:.1f} to {:.1f} dB",
+                     scatter.of_single ? "beside what neighbours share, single " : "", scatter.measured, scatter.least,
+                     scatter.most);
 }
 
 std::string field_in_words(const diagnosis::UnstatedField& field) {

@@ -66,7 +66,8 @@ Confidence confidence_of(const CauseEstimate& cause) {
 std::string why_unconfirmed(const CauseEstimate& cause) {
   if (!cause.held_out) return "no data could be held out";
   if (is_refuted(*cause.held_out)) return "the error at what was held out is larger with it";
-  if (!(cause.held_out->lower95 > 0)) return "the interval of the gain includes 0";
+  if (cause.held_out->blocks >= fewest_blocks && !(cause.held_out->lower95 > 0))
+    return "the interval of the gain includes 0";
   return fmt::format("the gain in {} blocks of space may be chance", cause.held_out->blocks);
 }
 
@@ -204,7 +205,7 @@ std::string rivals_in_words(const std::vector<inference::Alternative>& alternati
   return out;
 }
 
-std::string noise_in_words(const noise::Covariance& noise) {
+std::string noise_in_words(const noise::Covariance& noise, double time_unit) {
   static const std::map<noise::Family, std::string> shapes{
       {noise::Family::exponential, "exponential correlation"},
       {noise::Family::matern32, "Matern correlation of 3/2"},
@@ -214,9 +215,17 @@ std::string noise_in_words(const noise::Covariance& noise) {
       {noise::Family::stated, "the correlation that the world states"}};
   const double fixed = noise::fixed_share(noise.family);
   std::string kept;
+  if (time_unit > 0)
+    return fmt::format(
+        "Noise: levels of links, {} apart ({} between both ways of one); each wanders by {}, which decorrelates "
+        "over {:.3g} s ({}); and {} a reading.",
+        db(std::sqrt(fixed * noise.field_variance())),
+        db(std::sqrt(2 * noise::stream_part(noise.family) * fixed * noise.field_variance())),
+        db(std::sqrt((1 - fixed) * noise.field_variance())), noise.decorrelation() * time_unit,
+        shapes.at(noise::without_fixed(noise.family)), db(std::sqrt(noise.reading_variance())));
   if (fixed > 0)
     kept = fmt::format(", {:.0f} % of its variance kept at a place{}", 100 * fixed,
-                       noise::fixed_to_stream(noise.family) ? ", each way of a link by itself" : "");
+                       noise::stream_part(noise.family) == 1 ? ", each way of a link by itself" : "");
   return fmt::format("Noise: shadowing of {} that decorrelates over {:.2f} m ({}{}), and {} a reading.",
                      db(std::sqrt(noise.field_variance())), noise.decorrelation(),
                      shapes.at(noise::without_fixed(noise.family)), kept, db(std::sqrt(noise.reading_variance())));
@@ -328,9 +337,10 @@ std::string words_explained() {
 
 std::string why_no_blocks(const Diagnosis& d) {
   return fmt::format(
-      "All readings lie in one block of {:.1f} m (three decorrelation distances): none could be "
+      "All readings lie in one block of {:.1f} m{}: none could be "
       "held out, so no gain can be measured. Readings from a wider area would allow it.",
-      3 * d.noise.decorrelation());
+      3 * (d.time_unit > 0 ? std::exp(inference::thresholds::prior_log_decorrelation) : d.noise.decorrelation()),
+      d.time_unit > 0 ? "" : " (three decorrelation distances)");
 }
 
 }  // namespace muster::report

@@ -59,7 +59,8 @@ bool is_in_headline(const inference::Alternative& alternative);
 std::string names_of(const CauseEstimate& cause);
 
 // "Noise: shadowing of 3.10 dB that decorrelates over 2.40 m (exponential correlation), and 1.20 dB a reading."
-std::string noise_in_words(const noise::Covariance& noise);
+// `time_unit`: that of the diagnosis.
+std::string noise_in_words(const noise::Covariance& noise, double time_unit);
 // "Something depends on the column battery ...", with its gain and the causes that explain it nearly as well.
 std::string what_is_unexplained(const diagnosis::Unexplained& what);
 // "shows nothing more"; "still shows drift tx1, something along the column battery".

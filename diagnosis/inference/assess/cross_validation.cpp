@@ -30,7 +30,8 @@ std::vector<int> fold_of_block(int blocks, uint64_t seed) {
 }  // namespace
 
 std::vector<int> blocks_of(const noise::Sites& sites, const noise::Covariance& covariance) {
-  const double side = thresholds::block_side * covariance.decorrelation();
+  const double apart = sites.over_time() ? std::exp(thresholds::prior_log_decorrelation) : covariance.decorrelation();
+  const double side = thresholds::block_side * apart;
   const Eigen::Vector3d corner = sites.place.rowwise().minCoeff();
   std::vector<std::array<long, 3>> cells;
   for (Index i = 0; i < sites.size(); ++i) {

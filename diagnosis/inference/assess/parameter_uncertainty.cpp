@@ -19,7 +19,7 @@ constexpr int kept = 400;  // thetas
 
 // Ratio of the sandwich variance to the fitted one: scores summed over cells of places (Liang and Zeger 1986).
 double by_scatter(const ModelState& state, const WhitenedModel& rest, const ConditionalFit& fitted) {
-  const double side = std::max(1.0, state.fit.covariance.decorrelation());
+  const double side = state.time_unit() > 0 ? 1.0 : std::max(1.0, state.fit.covariance.decorrelation());
   const noise::Sites& sites = state.field().sites();
   const Eigen::VectorXd residual = rest.at.residual - fitted.columns * fitted.coefficients;
   std::map<std::tuple<int, long, long>, Eigen::VectorXd> scores;

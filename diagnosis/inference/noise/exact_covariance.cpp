@@ -81,12 +81,12 @@ class StatedRows {
 
 // Adds the share that is fixed at the row's site to covariances with the rows before it.
 void add_fixed(const RecurringSites& recurring, const Covariance& covariance, Index row, double* out) {
-  const double fixed = fixed_share(covariance.family) * covariance.field_variance();
-  if (fixed == 0) return;
-  const Relation least = fixed_to_stream(covariance.family) ? Relation::stream : Relation::site;
+  const double of_stream = fixed_share(covariance.family) * covariance.field_variance(),
+               of_site = fixed_to_site(covariance.family) * covariance.field_variance();
+  if (of_stream == 0) return;
   for (const Index other : recurring.rows_with(row)) {
     if (other >= row) return;
-    if (recurring.of(row, other) >= least) out[other] += fixed;
+    out[other] += recurring.of(row, other) == Relation::stream ? of_stream : of_site;
   }
 }
 
@@ -135,7 +135,7 @@ Eigen::MatrixXd covariance_of_sums(const Field& field, const Covariance& covaria
     const StatedRows rows(field, covariance);
     return sums_of(field, covariance, weights, rows, sites.size());
   }
-  const PlacedRows rows(sites, covariance);
+  const PlacedRows rows(field.correlated(), covariance);
   return sums_of(field, covariance, weights, rows, rows.filled());
 }
 

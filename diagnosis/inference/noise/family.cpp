@@ -6,9 +6,13 @@ namespace muster::noise {
 
 namespace {
 
-constexpr int apart = 16;  // families with different fixed shares: 0 for none, then those of a site, then of a stream
+constexpr int apart = 16;  // families with different fixed shares: 0 for none, then the shares of each stream's part
 
 std::size_t kind_of(Family family) { return static_cast<std::size_t>(family) / apart; }
+
+// Its place in fixed_shares and in stream_parts. It has a share.
+std::size_t share_of(Family family) { return (kind_of(family) - 1) % fixed_shares.size(); }
+std::size_t part_of(Family family) { return (kind_of(family) - 1) / fixed_shares.size(); }
 
 std::string plain_name(Family family) {
   switch (family) {
@@ -30,31 +34,45 @@ std::string plain_name(Family family) {
 
 }  // namespace
 
-Family with_fixed(Family family, std::size_t k, bool to_stream) {
-  const std::size_t kind = 1 + k + (to_stream ? fixed_shares.size() : 0);
+Family with_fixed(Family family, std::size_t k, std::size_t part) {
+  const std::size_t kind = 1 + k + part * fixed_shares.size();
   return static_cast<Family>(static_cast<int>(without_fixed(family)) + apart * static_cast<int>(kind));
 }
 
 Family without_fixed(Family family) { return static_cast<Family>(static_cast<int>(family) % apart); }
 
 Family with_less_fixed(Family family) {
-  const std::size_t kind = kind_of(family);
-  if (kind == 0) return family;
-  const std::size_t k = (kind - 1) % fixed_shares.size();
-  return k == 0 ? without_fixed(family) : with_fixed(family, k - 1, fixed_to_stream(family));
+  if (kind_of(family) == 0) return family;
+  return share_of(family) == 0 ? without_fixed(family) : with_fixed(family, share_of(family) - 1, part_of(family));
 }
 
 Family with_more_fixed(Family family) {
-  const std::size_t kind = kind_of(family);
-  if (kind == 0 || (kind - 1) % fixed_shares.size() == fixed_shares.size() - 1) return family;
-  return with_fixed(family, (kind - 1) % fixed_shares.size() + 1, fixed_to_stream(family));
+  if (kind_of(family) == 0 || share_of(family) == fixed_shares.size() - 1) return family;
+  return with_fixed(family, share_of(family) + 1, part_of(family));
 }
 
-double fixed_share(Family family) {
-  return kind_of(family) == 0 ? 0 : fixed_shares[(kind_of(family) - 1) % fixed_shares.size()];
+namespace {
+
+constexpr std::size_t none_of_stream = 0, all_of_stream = 1, least_of_stream = 2;  // in stream_parts
+
+}  // namespace
+
+Family with_less_of_stream(Family family) {
+  if (kind_of(family) == 0 || part_of(family) == none_of_stream || part_of(family) == all_of_stream) return family;
+  return with_fixed(family, share_of(family),
+                    part_of(family) == least_of_stream ? none_of_stream : part_of(family) - 1);
 }
 
-bool fixed_to_stream(Family family) { return kind_of(family) > fixed_shares.size(); }
+Family with_more_of_stream(Family family) {
+  if (kind_of(family) == 0 || part_of(family) == all_of_stream || part_of(family) == stream_parts.size() - 1)
+    return family;
+  return with_fixed(family, share_of(family),
+                    part_of(family) == none_of_stream ? least_of_stream : part_of(family) + 1);
+}
+
+double fixed_share(Family family) { return kind_of(family) == 0 ? 0 : fixed_shares[share_of(family)]; }
+
+double stream_part(Family family) { return kind_of(family) == 0 ? 0 : stream_parts[part_of(family)]; }
 
 bool is_stated(Family family) { return without_fixed(family) == Family::stated; }
 
@@ -62,7 +80,9 @@ std::string name_of(Family family) {
   const int percent = static_cast<int>(std::lround(100 * fixed_share(family)));
   std::string name = plain_name(without_fixed(family));
   if (percent == 0) return name;
-  return name + "_fixed_" + std::to_string(percent) + (fixed_to_stream(family) ? "_one_way" : "");
+  name += "_fixed_" + std::to_string(percent);
+  const int own = static_cast<int>(std::lround(100 * stream_part(family)));
+  return own == 0 ? name : own == 100 ? name + "_one_way" : name + "_one_way_" + std::to_string(own);
 }
 
 double correlation(Family family, double u) {

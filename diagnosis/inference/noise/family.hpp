@@ -18,16 +18,23 @@ inline constexpr std::array families{Family::exponential, Family::matern32, Fami
 std::string name_of(Family family);
 
 // Shares that may be fixed, of the field's variance.
-inline constexpr std::array fixed_shares{0.03, 0.1, 0.3, 0.6, 0.9};
-// A family with the k-th of these shares fixed at a site, or to a stream there.
-Family with_fixed(Family family, std::size_t k, bool to_stream);
+inline constexpr std::array fixed_shares{0.03, 0.1, 0.3, 0.6, 0.9, 0.97, 0.99};
+// Parts of a fixed share that may be that of one stream, and of no other at the site.
+inline constexpr std::array stream_parts{0.0, 1.0, 0.03, 0.1, 0.3};
+// A family with the k-th of these shares fixed at a site, of which the `part`-th part is a stream's own.
+Family with_fixed(Family family, std::size_t k, std::size_t part);
 Family without_fixed(Family family);
 // With the next lower or higher share; the family itself if there is none, or it has no share.
 Family with_less_fixed(Family family);
 Family with_more_fixed(Family family);
-// Share of the field's variance fixed at a site, and whether it is that of one stream there.
+// The same share, of which the next lower or higher part is a stream's own; of none and all the family itself.
+Family with_less_of_stream(Family family);
+Family with_more_of_stream(Family family);
+// Share of the field's variance fixed at a site, and the part of it that is that of one stream there, 0 to 1.
 double fixed_share(Family family);
-bool fixed_to_stream(Family family);
+double stream_part(Family family);
+// Share that any two rows of a site have in common; two of one stream have all that is fixed.
+inline double fixed_to_site(Family family) { return (1 - stream_part(family)) * fixed_share(family); }
 // True for the stated correlation, with a fixed share or without.
 bool is_stated(Family family);
 

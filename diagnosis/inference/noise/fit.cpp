@@ -67,9 +67,12 @@ Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::M
                     const WhitenerSlopes& start, int steps) {
   Fit best = fit(field, y, design, prior, start, steps);
   if (fixed_share(best.covariance.family) == 0) return best;
-  for (const bool less : {true, false}) {
+  std::vector<Family (*)(Family)> ways{with_less_fixed, with_more_fixed};
+  if (field.sites().over_time() && field.recurring().several_streams())
+    ways.insert(ways.end(), {with_less_of_stream, with_more_of_stream});
+  for (const auto& way : ways) {
     while (true) {
-      const Family family = best.covariance.family, next = less ? with_less_fixed(family) : with_more_fixed(family);
+      const Family family = best.covariance.family, next = way(family);
       if (next == family || fixed_share(next) == 0) break;
       const Covariance at{next, prior.inside(best.covariance.theta)};
       const Fit other = fit_from(at, objective(field, at, y, design, prior), field, y, design, prior, steps,
@@ -103,6 +106,24 @@ void fit_stated_again(std::vector<Fit>& fits, const Field& field, const Eigen::V
 
 }  // namespace
 
+namespace {
+
+// Over time the levels of a site's streams differ by less than those of sites: beside the likeliest share of a site,
+// the part of it that is a stream's own.
+void fit_parts_of_streams(std::vector<Fit>& fits, const Field& field, const Eigen::VectorXd& y,
+                          const Eigen::MatrixXd& design, const Prior& prior) {
+  if (!field.sites().over_time() || !field.recurring().several_streams()) return;
+  const Fit* best = nullptr;
+  for (const Fit& f : fits) {
+    if (fixed_share(f.covariance.family) > 0 && (!best || f.value < best->value)) best = &f;
+  }
+  if (!best) return;
+  const Covariance start{with_more_of_stream(best->covariance.family), best->covariance.theta};
+  fits.push_back(fit_over_shares(field, y, design, prior, WhitenerSlopes(field, start), 20));
+}
+
+}  // namespace
+
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                               const Prior& prior, double advantage) {
   std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
@@ -130,6 +151,7 @@ std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, cons
     fits.push_back(fit(field, y, design, prior, start));
     if (family == Family::gaussian) fit_stated_again(fits, field, y, design, prior);
   }
+  fit_parts_of_streams(fits, field, y, design, prior);
   double least = std::numeric_limits<double>::infinity();
   for (const Fit& f : fits) least = std::min(least, f.value);
   std::erase_if(fits, [&](const Fit& f) {

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace muster::noise {
-namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, bool slopes, const RowKernel& kernel)
     : field_(field),
       kernel_(kernel),
@@ -37,7 +31,7 @@ Neighbourhood::Neighbourhood(const Field& field, const Covariance& covariance, b
     const double slope = stated ? value : correlation_slope(covariance.family, u);
     correlation_[k] = (1 - fixed_) * value;
     by_distance_[k] = (1 - fixed_) * slope;
-    correlation_[same_site + k] = correlation_[k] + (fixed_to_stream(covariance.family) ? 0 : fixed_);
+    correlation_[same_site + k] = correlation_[k] + fixed_to_site(covariance.family);
     correlation_[2 * same_site + k] = correlation_[k] + fixed_;
     // The stated slope is a difference of two values, in which the fixed share cancels.
     by_distance_[same_site + k] = by_distance_[2 * same_site + k] = by_distance_[k];

@@ -2,9 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
+#include "diagnosis/inference/noise/recurring_sites.hpp"
+
 namespace muster::noise {
+namespace {
+
+// More rows are of the series of their site, long after it; of a site that has none, of a new one.
+void join_series(const Sites& sites, const Sites& more, Sites& both) {
+  constexpr double later = 20;  // decorrelation distances, about
+  const double end = *std::max_element(sites.moment.begin(), sites.moment.end()) + later;
+  std::map<SiteKey, int> series;
+  for (Index i = 0; i < sites.size(); ++i)
+    series.emplace(site_key(sites, i), sites.series[static_cast<std::size_t>(i)]);
+  int next = *std::max_element(sites.series.begin(), sites.series.end()) + 1;
+  for (Index i = 0; i < more.size(); ++i) {
+    const auto [known, is_new] = series.try_emplace(site_key(more, i), next);
+    if (is_new) ++next;
+    both.series.push_back(known->second);
+    both.moment.push_back(end);
+  }
+}
+
+}  // namespace
+
 Rows::Rows(std::vector<Index> order, std::vector<Index> first, std::vector<Index> twin)
     : order_(std::move(order)), first_(std::move(first)), row_of_(std::max(order_.size(), twin.size())) {
   if (!twin.empty()) {
@@ -133,6 +156,9 @@ Sites Sites::of(const std::vector<Index>& rows) const {
     result.group.push_back(group[static_cast<std::size_t>(i)]);
     if (!stream.empty()) result.stream.push_back(stream[static_cast<std::size_t>(i)]);
     if (!alone.empty()) result.alone.push_back(alone[static_cast<std::size_t>(i)]);
+    if (!over_time()) continue;
+    result.series.push_back(series[static_cast<std::size_t>(i)]);
+    result.moment.push_back(moment[static_cast<std::size_t>(i)]);
   }
   return result;
 }
@@ -153,6 +179,7 @@ Sites Sites::with(const Sites& more) const {
     result.alone.insert(result.alone.end(), more.alone.begin(), more.alone.end());
     result.alone.resize(static_cast<std::size_t>(result.size()), 0);
   }
+  if (over_time()) join_series(*this, more, result);
   return result;
 }
 

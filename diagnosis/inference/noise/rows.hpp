@@ -6,12 +6,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 namespace muster::noise {
 
 using Eigen::Index;
+
+// As an index of a standard container.
+inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 class StatedCorrelation;
 
@@ -32,9 +36,14 @@ struct Sites {
   // Variance of one reading [squared units] of a row that shares no field with others, and 0 of those that do. Empty:
   // all do.
   std::vector<double> alone{};
+  // Where errors are correlated over time instead of over places, each series by itself: of each row its series, and
+  // its moment in the units of the decorrelation distance. Empty: over places.
+  std::vector<int> series{};
+  std::vector<double> moment{};
 
   Index size() const { return count.size(); }
   bool is_alone(Index row) const { return !alone.empty() && alone[static_cast<std::size_t>(row)] > 0; }
+  bool over_time() const { return !series.empty(); }
   double within() const;  // the mean distance of two readings of a row
   Sites of(const std::vector<Index>& rows) const;
   // These sites, then those of `more`.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/inference/noise/neighbourhood.hpp"
+#include "diagnosis/inference/noise/over_time.hpp"
 #include "diagnosis/inference/noise/row_distance.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -14,8 +15,6 @@ namespace {
 using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr std::size_t at_once = 1 << 16;  // pairs in one question to the model
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // Fast path for one column: refinement calls it thousands of times.
 Eigen::VectorXd applied_to_one(const Field& field, const Stencil& stencil, const double* x) {
@@ -64,23 +63,24 @@ Conditioning fillable(Conditioning conditioning, const std::vector<int>& group) 
 
 }  // namespace
 
-Field::Field(Sites sites, const Conditioning& conditioning) : sites_(std::move(sites)), recurring_(sites_) {
-  const Conditioning with = fillable(conditioning, sites_.group);
+Field::Field(Sites sites, const Conditioning& conditioning)
+    : sites_(std::move(sites)), moments_(moments_of(sites_)), recurring_(sites_) {
+  const Conditioning with = fillable(conditioning, correlated().group);
   slots_ = with.slots();
-  neighbours_ = neighbours_of(sites_, with);
+  neighbours_ = neighbours_of(correlated(), with);
   float longest = 0;
   each_pair(false, [&](std::size_t, Index, Index, float, float both) { longest = std::max(longest, both); });
   spacing_ = std::max(spacing_, longest / (distances - 1.0));
   smooth_ = table(false);
-  if (sites_.within() > 0) rough_ = table(true);
-  if (sites_.stated) different_.assign(at(pairs()), Joint::other);
+  if (correlated().within() > 0) rough_ = table(true);
+  if (correlated().stated) different_.assign(at(pairs()), Joint::other);
 }
 
 template <class Use>
 void Field::each_pair(bool by_readings, const Use& use) const {
-  const SiteFloats floats = floats_of(sites_);
+  const SiteFloats floats = floats_of(correlated());
   PlacedSites near(slots_ + 1);  // a row, then its neighbours
-  const Places places = near.places(by_readings, anchors_move(sites_), std::numeric_limits<float>::max());
+  const Places places = near.places(by_readings, anchors_move(correlated()), std::numeric_limits<float>::max());
   std::vector<float> place(at(near.filled())), both(place.size());
   for (Index i = 0; i < size(); ++i) {
     near.set(0, floats.row(i));
@@ -105,7 +105,7 @@ Field::Table Field::table(bool by_readings) const {
   result.joint.assign(result.near.size(), distances);
   each_pair(by_readings, [&](std::size_t slot, Index a, Index b, float place, float both) {
     result.near[slot] = static_cast<uint16_t>(entry(place) + within_site(a, b));
-    if (sites_.group[at(a)] == sites_.group[at(b)])
+    if (correlated().group[at(a)] == correlated().group[at(b)])
       result.joint[slot] = static_cast<uint16_t>(entry(both) + within_site(a, b));
   });
   compare_ends(result);
@@ -127,7 +127,7 @@ void Field::compare_ends(Table& table) const {
 
 std::vector<Family> Field::families() const {
   std::vector<Family> result;
-  if (sites_.stated) result.push_back(Family::stated);
+  if (correlated().stated) result.push_back(Family::stated);
   result.insert(result.end(), noise::families.begin(), noise::families.end());
   return result;
 }
@@ -135,11 +135,11 @@ std::vector<Family> Field::families() const {
 std::vector<Family> Field::fixed_families() const {
   std::vector<Family> result;
   if (recurring_.share() < inference::thresholds::recurring_share) return result;
-  for (const bool to_stream : {false, true}) {
-    if (to_stream && !recurring_.several_streams()) continue;
+  for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {  // of the site, or of each stream
+    if (part == 1 && (!recurring_.several_streams() || sites_.over_time())) continue;
     for (std::size_t k = 0; k < fixed_shares.size(); ++k) {
-      if (sites_.stated) result.push_back(with_fixed(Family::stated, k, to_stream));
-      result.push_back(with_fixed(Family::exponential, k, to_stream));
+      if (correlated().stated) result.push_back(with_fixed(Family::stated, k, part));
+      result.push_back(with_fixed(Family::exponential, k, part));
     }
   }
   return result;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "diagnosis/inference/noise/basis.hpp"
 #include "diagnosis/inference/noise/family.hpp"
@@ -32,6 +33,8 @@ class Field {
 
   Index size() const { return sites_.size(); }
   const Sites& sites() const { return sites_; }
+  // Those between which errors are correlated: where that is over time, moments in the place of places.
+  const Sites& correlated() const { return moments_ ? *moments_ : sites_; }
   int slots() const { return slots_; }
   // What may be fitted: the stated one first, if there is one, else the exponential one.
   std::vector<Family> families() const;
@@ -73,6 +76,7 @@ class Field {
   void compare_ends(Table& table) const;
 
   Sites sites_;
+  std::optional<Sites> moments_;  // of errors that are correlated over time
   RecurringSites recurring_;
   int slots_;
   std::vector<Index> neighbours_;

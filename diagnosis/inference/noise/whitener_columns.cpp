@@ -3,8 +3,6 @@
 namespace muster::noise {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Calls each(row, reached, weight) for every non-zero entry of the whitener.
 template <class Each>
 void each_entry(const Field& field, const Stencil& stencil, const Each& each) {

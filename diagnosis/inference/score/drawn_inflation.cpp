@@ -23,8 +23,12 @@ noise::Sheet some_atoms(const Entry& entry) {
 // Of the given family, with the fixed share of the other one.
 noise::Family with_share_of(noise::Family other, noise::Family family) {
   for (std::size_t k = 0; k < noise::fixed_shares.size(); ++k) {
-    if (noise::fixed_share(other) == noise::fixed_shares[k])
-      return noise::with_fixed(family, k, noise::fixed_to_stream(other));
+    for (std::size_t part = 0; part < noise::stream_parts.size(); ++part) {
+      const noise::Family same = noise::with_fixed(family, k, part);
+      if (noise::fixed_share(other) == noise::fixed_share(same) &&
+          noise::stream_part(other) == noise::stream_part(same))
+        return same;
+    }
   }
   return family;
 }
@@ -72,7 +76,7 @@ bool within_draws(const ModelState& state, const noise::StatedField& field, doub
 
 bool resembles_draws(const ModelState& state, const Eigen::MatrixXd& design, const noise::StatedField& field) {
   const noise::Covariance& fitted = state.fit.covariance;
-  if (!state.field().sites().stated || state.drawn(field).cols() == 0) return false;
+  if (!state.field().correlated().stated || state.drawn(field).cols() == 0) return false;
   if (fitted.reading_variance() < thresholds::unblurred_variance) return true;
   const auto as = [&](noise::Family family) {
     return noise::as_stated(field, with_share_of(fitted.family, family), fitted.theta, state.within());

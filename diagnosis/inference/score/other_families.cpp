@@ -7,9 +7,9 @@ namespace {
 
 // True if a fit from either family ends in the same one.
 bool alike(noise::Family a, noise::Family b) {
-  return a == b ||
-         (noise::fixed_share(a) > 0 && noise::fixed_share(b) > 0 &&
-          noise::without_fixed(a) == noise::without_fixed(b) && noise::fixed_to_stream(a) == noise::fixed_to_stream(b));
+  return a == b || (noise::fixed_share(a) > 0 && noise::fixed_share(b) > 0 &&
+                    noise::without_fixed(a) == noise::without_fixed(b) &&
+                    (noise::stream_part(a) == 1) == (noise::stream_part(b) == 1));
 }
 
 }  // namespace

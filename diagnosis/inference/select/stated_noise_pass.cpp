@@ -21,7 +21,7 @@ std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::V
   const noise::Family fitted = state.fit.covariance.family;
   const bool fixed = noise::fixed_share(fitted) > 0;
   for (const noise::Family family : fixed ? std::vector{fitted} : state.field().families()) {
-    const auto start = as_stated(state.problem().stated, family, state.fit.covariance.theta, state.within());
+    const auto start = as_stated(state.stated(), family, state.fit.covariance.theta, state.within());
     fits.push_back(noise::fit(state.field(), y, design, state.options().prior, start, 6, noise::unstated));
   }
   std::sort(fits.begin(), fits.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
@@ -40,12 +40,12 @@ double nats_behind(const ModelState& state, const Eigen::VectorXd& y, const Eige
 // Where nothing blurs the readings, a few waves are smoother than their covariance says, and the likelihood, which
 // looks at neighbours, prefers another one by far; the levels of whole stations scatter as stated all the same.
 bool is_unblurred(const ModelState& state) {
-  return state.field().sites().stated && state.fit.covariance.reading_variance() < thresholds::unblurred_variance;
+  return state.field().correlated().stated && state.fit.covariance.reading_variance() < thresholds::unblurred_variance;
 }
 
 // True if draws of the model, whose field is the stated one, are as far behind. Costs many fits.
 bool draws_are_behind(const ModelState& state, const Eigen::MatrixXd& both, double behind) {
-  return within_draws(state, state.problem().stated, behind, [&](const Eigen::VectorXd& y) {
+  return within_draws(state, state.stated(), behind, [&](const Eigen::VectorXd& y) {
     return nats_behind(state, y, both, fitted_as_stated(state, y, both)[0]);
   });
 }
@@ -60,7 +60,7 @@ bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& design, co
   if (!is_unblurred(state)) return false;
   const Candidate& c = lead.candidate();
   const WhitenedModel model = state.whitened_model(design, stated.covariance);
-  lead.inflation = drawn_inflation(state, model, c, state.problem().stated);
+  lead.inflation = drawn_inflation(state, model, c, state.stated());
   lead.gain /= lead.inflation;
   lead.log_p = std::max(lead.log_p, state.log_p(c, lead.gain, c.design.width, false) + model.skew_charge(lead.columns));
   return lead.log_p < threshold && draws_are_behind(state, both, behind);
@@ -107,7 +107,7 @@ void weigh_beside(const ModelState& state, const Eigen::MatrixXd& design, const 
 
 std::optional<ScoredCandidate> stated_noise_pass(ModelState& state, const std::function<bool(const Candidate&)>& usable,
                                                  std::vector<Trial>& trials) {
-  if (state.problem().stated.shadowing <= 0 || state.problem().bounds.any()) return {};
+  if (state.stated().shadowing <= 0 || state.problem().bounds.any()) return {};
   const double threshold = state.threshold() - std::log(2.0);  // a second test
   const Eigen::MatrixXd design = state.design();
   const WhitenedModel alone = state.whitened_model(design, fitted_as_stated(state, state.y(), design)[0].covariance);

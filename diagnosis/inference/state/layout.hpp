@@ -25,6 +25,8 @@ class Layout {
   // Rows of the usual length or longer, for tests of slowly varying effects.
   virtual noise::Rows long_rows() const { return rows(); }
   virtual noise::Sites sites(const noise::Rows& rows) const = 0;
+  // Times of the rows, s, to which errors of what stands still may be correlated; empty without time.
+  virtual std::vector<double> times(const noise::Rows& /*rows*/) const { return {}; }
   // `sites`: of these rows.
   virtual std::vector<Grouping> groupings(const noise::Rows& /*rows*/, const noise::Sites& /*sites*/) const {
     return {};

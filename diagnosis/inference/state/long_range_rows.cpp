@@ -18,11 +18,11 @@ double information(const noise::Field& field, const noise::Covariance& covarianc
 
 }  // namespace
 
-LongRangeRows::LongRangeRows(const Layout& layout, const Options& options, const noise::Rows& rows)
+LongRangeRows::LongRangeRows(noise::Rows long_rows, noise::Sites sites, const Options& options, const noise::Rows& rows)
     : rows_(rows),
       prior_(options.prior),
-      long_rows_(layout.long_rows()),
-      field_(layout.sites(long_rows_), {.same = 16, .others = 20, .seed = options.seed}) {}
+      long_rows_(std::move(long_rows)),
+      field_(std::move(sites), {.same = 16, .others = 20, .seed = options.seed}) {}
 
 Eigen::MatrixXd LongRangeRows::lengthened(const Eigen::MatrixXd& of_rows) const {
   Eigen::MatrixXd result(long_rows_.size(), of_rows.cols());

@@ -11,7 +11,8 @@ namespace muster::inference {
 // All arguments have a value a row of the search.
 class LongRangeRows {
  public:
-  LongRangeRows(const Layout& layout, const Options& options, const noise::Rows& rows);
+  // `rows`: of the search.
+  LongRangeRows(noise::Rows long_rows, noise::Sites sites, const Options& options, const noise::Rows& rows);
 
   // Columns beside a design, and the noise fitted beside both.
   struct Question {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/noise/exact_covariance.hpp"
+#include "diagnosis/inference/noise/over_time.hpp"
 #include "diagnosis/inference/state/null_calibration.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/inference/state/smooths.hpp"
@@ -108,14 +110,104 @@ ModelState::ModelState(const Problem& problem, const Options& options)
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
   impute(6);
   families = noise::fit_families(field_, y_, base_, options_.prior);
-  fit = families[0];
   for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
   for (const Candidate& candidate : problem.smooths) entries_.push_back(entry(candidate));
   fixed_ = entries_.size();
+  correlate_over_time();
+  fit = families[0];
+}
+
+// Takes errors as correlated over time if that is likelier, and if what is not fixed of them does wander. One step or
+// swing is no wander: with the likeliest of these in the model it must be likelier, too.
+void ModelState::correlate_over_time() {
+  const std::vector<double> units =
+      noise::time_units(field_.recurring(), field_.sites(), problem_.layout->times(rows_));
+  if (units.empty()) return;
+  const Eigen::MatrixXd beside = noise::hstack(base_, likeliest_in_time());
+  const double of_places = noise::fit_families(field_, y_, beside, options_.prior)[0].value;
+  double chosen = 0;
+  for (const double unit : units) {
+    time_unit_ = unit;
+    noise::Field over_time = field_of(rows_);
+    std::vector<noise::Fit> fits = noise::fit_families(over_time, y_, base_, options_.prior);
+    if (fits[0].value >= families[0].value || !wanders(over_time, fits[0]) ||
+        noise::fit(over_time, y_, beside, options_.prior, fits[0].covariance).value >= of_places)
+      continue;
+    chosen = unit;
+    field_ = std::move(over_time);
+    whiteners_.clear();
+    families = std::move(fits);
+  }
+  time_unit_ = chosen;
+}
+
+// Columns of the cause in time that gains most under the noise over places, where it gains most; none where none is
+// sought.
+Eigen::MatrixXd ModelState::likeliest_in_time() const {
+  const WhitenedModel model = whitened_model(base_, families[0].covariance);
+  const Candidate* first = nullptr;
+  Eigen::VectorXd theta;
+  double most = 0;
+  for (const Entry& entry : entries_) {
+    const Candidate& c = *entry.candidate;
+    if (!c.role.time_like || c.kind == Kind::smooth) continue;
+    noise::Sheet atoms = model.whitener.sheet(*entry.atoms);
+    model.at.basis.take_out_of(atoms);
+    const OrthonormalAtoms unit(std::move(atoms), c.design.width);
+    Index best = 0;
+    const double gain = statistics(c, unit.along(model.at.residual.cast<float>())).col(0).maxCoeff(&best);
+    if (gain <= most) continue;
+    most = gain;
+    first = &c;
+    theta = c.design.grid[static_cast<std::size_t>(best)];
+  }
+  if (!first) return Eigen::MatrixXd(rows_.size(), 0);
+  climb(*first, model, theta);
+  return columns_of(*first, theta);
+}
+
+// Pattern search (Hooke and Jeeves 1961): a step between the moments of a grid leaves some readings on its wrong side.
+void ModelState::climb(const Candidate& c, const WhitenedModel& model, Eigen::VectorXd& theta) const {
+  if (!c.refinement.any()) return;
+  double most = model.gain(columns_of(c, theta));
+  for (double share = 1; share > 1e-2; share /= 2) {
+    for (Index k = 0; k < theta.size(); ++k) {
+      for (double way = share * c.refinement.step[k]; way != 0;) {
+        Eigen::VectorXd next = theta;
+        next[k] = std::clamp(theta[k] + way, c.refinement.lower[k], c.refinement.upper[k]);
+        const double gain = model.gain(columns_of(c, next));
+        if (gain > most) {
+          most = gain;
+          theta = next;
+        } else {
+          way = way == share * c.refinement.step[k] ? -way : 0;  // the other way, then no further
+        }
+      }
+    }
+  }
+}
+
+// True if the rows are likelier than without memory, beyond chance. The prior of how long it is does not count.
+bool ModelState::wanders(const noise::Field& over_time, const noise::Fit& best) const {
+  const noise::Prior& prior = options_.prior;
+  const auto without_prior = [&](const noise::Fit& fit) {
+    const double mean = prior.log_decorrelation + noise::log_scale_of(fit.covariance.family);
+    const double apart = (fit.covariance.theta[1] - mean) / prior.decorrelation_spread;
+    return fit.value - apart * apart / 2;
+  };
+  noise::Covariance forgets = best.covariance;
+  forgets.theta[1] = prior.lower()[1];
+  const noise::Fit without = noise::fit(over_time, y_, base_, prior, forgets, 20, {1, 0, 1, 1});
+  return without_prior(without) - without_prior(best) > thresholds::over_time_nats;
+}
+
+noise::Sites ModelState::sites_of(const noise::Rows& rows) const {
+  noise::Sites sites = problem_.layout->sites(rows);
+  return time_unit_ > 0 ? noise::over_time(std::move(sites), problem_.layout->times(rows), time_unit_) : sites;
 }
 
 noise::Field ModelState::field_of(const noise::Rows& rows) const {
-  return noise::Field(problem_.layout->sites(rows), {.seed = options_.seed});
+  return noise::Field(sites_of(rows), {.seed = options_.seed});
 }
 
 Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd& theta) {
@@ -130,6 +222,7 @@ Index ModelState::end_rows_at(const Candidate& candidate, const Eigen::VectorXd&
   field_ = field_of(rows_);
   far_.reset();
   starts_.clear();
+  whiteners_.clear();
   base_ = rows_.mean(problem_.base);
   y_ = rows_.mean(measured_);
   for (Term& term : terms) term.columns = columns_of(*term.candidate, term.theta);
@@ -192,13 +285,22 @@ Eigen::MatrixXd ModelState::design_without(const Term& term) const {
 }
 
 WhitenedModel ModelState::whitened_model(const Eigen::MatrixXd& design, const noise::Covariance& covariance) const {
-  noise::Whitener whitener(field_, covariance);
+  noise::Whitener whitener = whitener_at(covariance);
   noise::Whitened at = noise::whitened(whitener, y_, design, options_.prior);
   std::vector<bool> alone;
   if (!field_.sites().alone.empty()) {
     for (Index i = 0; i < rows_.size(); ++i) alone.push_back(field_.sites().is_alone(i));
   }
   return {std::move(whitener), std::move(at), design, std::move(alone)};
+}
+
+const noise::Whitener& ModelState::whitener_at(const noise::Covariance& covariance) const {
+  constexpr std::size_t most = 4;
+  const auto there = std::find_if(whiteners_.begin(), whiteners_.end(),
+                                  [&](const noise::Whitener& known) { return known.covariance() == covariance; });
+  if (there != whiteners_.end()) return *there;
+  if (whiteners_.size() == most) whiteners_.pop_front();
+  return whiteners_.emplace_back(field_, covariance);
 }
 
 noise::Fit ModelState::fitted(const Eigen::MatrixXd& design, const noise::Covariance& start, int steps) const {
@@ -229,21 +331,26 @@ std::vector<noise::Family> ModelState::likely_families(noise::Family first) cons
 
 std::vector<noise::StatedField> ModelState::drawable(const noise::Covariance& fitted) const {
   const noise::StatedField there = noise::stated_by(fitted, within());
-  if (problem_.stated.shadowing <= 0) return {there};
-  if (alike(problem_.stated, there)) return {problem_.stated};
-  return {problem_.stated, there};
+  if (stated().shadowing <= 0) return {there};
+  if (alike(stated(), there)) return {stated()};
+  return {stated(), there};
 }
 
 const Eigen::MatrixXd& ModelState::drawn(const noise::StatedField& field) const {
   Drawn& kept = alike(problem_.stated, field) ? of_stated_ : of_fitted_;
-  if (problem_.drawn && !alike(kept.field, field)) kept = {field, problem_.drawn(field, thresholds::model_draws), {}};
+  if (problem_.drawn && time_unit_ == 0 && !alike(kept.field, field))
+    kept = {field, problem_.drawn(field, thresholds::model_draws), {}};
   if (kept.rows.rows() != rows_.size())
     kept.rows = kept.readings.size() ? rows_.mean(kept.readings) : Eigen::MatrixXd(rows_.size(), 0);
   return kept.rows;
 }
 
 const LongRangeRows& ModelState::far() const {
-  if (!far_) far_ = std::make_unique<const LongRangeRows>(*problem_.layout, options_, rows_);
+  if (!far_) {
+    noise::Rows rows = problem_.layout->long_rows();
+    noise::Sites sites = sites_of(rows);
+    far_ = std::make_unique<const LongRangeRows>(std::move(rows), std::move(sites), options_, rows_);
+  }
   return *far_;
 }
 

@@ -64,7 +64,9 @@ class ModelState {
   const Options& options() const { return options_; }
   const noise::Rows& rows() const { return rows_; }
   const noise::Field& field() const { return field_; }
-  double within() const { return field_.sites().within(); }  // m: the mean distance of two readings of a row
+  double within() const { return field_.correlated().within(); }  // m: the mean distance of two readings of a row
+  // s: of one unit of the decorrelation distance, where errors are correlated over time; 0 where over places.
+  double time_unit() const { return time_unit_; }
   // Splits rows where the effect of a candidate there, fitted beside the model, sets in or stops. A mean over its
   // edges would lose up to half of the gain. Returns the number of new rows. Invalidates earlier WhitenedModels and
   // columns.
@@ -73,6 +75,8 @@ class ModelState {
   const LongRangeRows& far() const;
   // Standard normal residuals, one set a column: the null of everything whitened.
   const noise::Sheet& normals() const { return normals_; }
+  // The field that the model states; none where errors are correlated over time: it draws no such errors.
+  noise::StatedField stated() const { return time_unit_ > 0 ? noise::StatedField() : problem_.stated; }
   // The fields that the errors may be draws of, by the model itself: the stated one, and that of a fit where it is
   // another.
   std::vector<noise::StatedField> drawable(const noise::Covariance& fitted) const;
@@ -131,15 +135,23 @@ class ModelState {
   Entry entry(Candidate candidate) const;
   Eigen::MatrixXd design_of_readings() const;
   noise::Field field_of(const noise::Rows& rows) const;
+  noise::Sites sites_of(const noise::Rows& rows) const;
+  void correlate_over_time();
+  Eigen::MatrixXd likeliest_in_time() const;
+  void climb(const Candidate& candidate, const WhitenedModel& model, Eigen::VectorXd& theta) const;
+  bool wanders(const noise::Field& over_time, const noise::Fit& best) const;
   const noise::WhitenerSlopes& factorised_at(const noise::Covariance& start) const;
+  const noise::Whitener& whitener_at(const noise::Covariance& covariance) const;
 
   const Problem& problem_;
   Options options_;
   noise::Rows rows_;
   std::vector<Index> origin_;  // of each row, the problem's row that it is part of; empty: they are the same
+  double time_unit_ = 0;
   noise::Field field_;
   mutable std::unique_ptr<const LongRangeRows> far_;
   mutable std::deque<noise::WhitenerSlopes> starts_;  // of the last fits: beside each candidate they start alike
+  mutable std::deque<noise::Whitener> whiteners_;     // of the last models: most are whitened at one covariance
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
   std::vector<Entry> entries_;

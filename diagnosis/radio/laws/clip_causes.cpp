@@ -63,7 +63,7 @@ bool at_one_extreme(const LawSources& s, const Clip& pile) {
   // A clip makes the fitted field wide: the stated one is, where there is one.
   const double extreme =
       stated.shadowing > 0 ? std::min(field.decorrelation, stated.decorrelation) : field.decorrelation;
-  return field.shadowing >= thresholds::field_of_extremes &&
+  return s.state.time_unit() == 0 && field.shadowing >= thresholds::field_of_extremes &&
          links_at_level(s.data, pile.level) < thresholds::links_beyond_an_extreme &&
          extent_at_level(s.data, pile.level) < extreme;
 }
@@ -127,7 +127,8 @@ double scatter_near(double floor, const VectorXd& heard, const VectorXd& mean, c
 VectorXd chances_of(const LawSources& s) {
   const noise::Covariance& noise = s.state.fit.covariance;
   const double shared = noise.field_variance() / (noise.field_variance() + noise.reading_variance());
-  const double cell = std::max(noise::stated_by(noise, s.state.within()).decorrelation / 2, 0.1);  // m
+  const double alike = s.state.time_unit() > 0 ? 0 : noise::stated_by(noise, s.state.within()).decorrelation;
+  const double cell = std::max(alike / 2, 0.1);  // m
   const LinkReadings& r = s.readings;
   std::map<std::vector<long>, double> count;
   std::vector<double*> of;
@@ -160,12 +161,13 @@ bool ends_by_itself(const LawSources& s, double evidence, const VectorXd& weight
   const noise::Whitener whitener = s.state.whitened_model(design).whitener;
   for (uint64_t k = 0; k < thresholds::pile_draws; ++k) {
     const WorldDraw draw = s.draws.draw(k, found.parameters, {});
-    const VectorXd drawn = draw.drawn(s.used), error = drawn - draw.expected(s.used);
+    const VectorXd drawn = s.fit.readings.received(draw.drawn)(s.used),
+                   expected = s.fit.readings.received(draw.expected)(s.used), error = drawn - expected;
     const noise::Whitened fitted =
         noise::whitened(whitener, s.state.rows().mean(error.array().isFinite().select(error, 0).matrix()), design,
                         s.state.options().prior);
     const VectorXd moved = design * fitted.basis.coefficients(fitted.basis.q.transpose() * fitted.y, design.cols());
-    const VectorXd mean = draw.expected(s.used) + s.state.rows().at_readings(moved);
+    const VectorXd mean = expected + s.state.rows().at_readings(moved);
     std::vector<Eigen::Index> heard;
     for (Eigen::Index i = 0; i < mean.size(); ++i) {
       if (std::isfinite(drawn[i]) && std::isfinite(mean[i])) heard.push_back(i);
@@ -182,7 +184,7 @@ bool ends_by_itself(const LawSources& s, double evidence, const VectorXd& weight
 bool add_truncation(const LawSources& s, Diagnosis& found) {
   const std::vector<const Cause*> causes = clips_of(s, MUSTER_BELOW, true);
   if (causes.empty() || s.fit.missing.count > 0 || found.receiver.bottom) return false;
-  const VectorXd heard = s.fit.readings.rssi(s.used);
+  const VectorXd heard = s.fit.readings.received(s.fit.readings.rssi)(s.used);
   const VectorXd expected = heard - (s.state.problem().measured - s.state.mean_of_readings());
   const double step = found.receiver.step;
   const VectorXd weight = chances_of(s);

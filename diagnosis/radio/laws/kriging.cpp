@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "diagnosis/inference/noise/over_time.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -37,13 +38,14 @@ LinkReadings those(const LinkReadings& all, const std::vector<Index>& which) {
 }
 
 // Each reading as a row of its own, in the given order.
-noise::Sites sites_of(const LinkReadings& readings, std::shared_ptr<const noise::StatedCorrelation> stated) {
+noise::Sites sites_of(const LinkReadings& readings, std::shared_ptr<const noise::StatedCorrelation> stated,
+                      double time_unit) {
   LinkRowLimits single;
   single.way = -1;
   const noise::Rows rows = link_rows(readings, single);
   noise::Sites sites = link_sites(rows, readings).of(rows.row_of());
   sites.stated = std::move(stated);
-  return sites;
+  return time_unit > 0 ? noise::over_time(std::move(sites), readings.t, time_unit) : sites;
 }
 
 // Index of each site's cell of this side, in order of first visit, separate for each anchor's radio.
@@ -60,7 +62,7 @@ std::vector<Index> cells_of(const noise::Sites& sites, double side) {
 
 // Readings that repeat an earlier one of their site, or of one stream there; all of them where nothing is fixed.
 std::vector<Index> repeats_of(const noise::RecurringSites& recurring, Index size, noise::Family fitted) {
-  const auto least = noise::fixed_to_stream(fitted) ? noise::Relation::stream : noise::Relation::site;
+  const auto least = noise::stream_part(fitted) > 0 ? noise::Relation::stream : noise::Relation::site;
   std::vector<Index> result;
   for (Index i = 0; i < size; ++i) {
     const std::vector<Index>& alike = recurring.rows_with(i);
@@ -93,10 +95,12 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 }  // namespace
 
 KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual,
-                               std::shared_ptr<const noise::StatedCorrelation> stated, noise::Family fitted)
-    : KrigedReadings(residual(finite_of(residual)),
-                     noise::Field(sites_of(those(readings, finite_of(residual)), std::move(stated)), conditioning),
-                     fitted, 4) {}
+                               std::shared_ptr<const noise::StatedCorrelation> stated, noise::Family fitted,
+                               double time_unit)
+    : KrigedReadings(
+          residual(finite_of(residual)),
+          noise::Field(sites_of(those(readings, finite_of(residual)), std::move(stated), time_unit), conditioning),
+          fitted, 4) {}
 
 KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, noise::Family fitted, double far_off)
     : residual_(std::move(residual)),

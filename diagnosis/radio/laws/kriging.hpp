@@ -43,9 +43,10 @@ struct CloseReadings {
 class KrigedReadings {
  public:
   // One residual a reading; non-finite ones are left out. `fitted`: of the rows; with a fixed share, readings have one.
+  // `time_unit`: as that of the model (ModelState::time_unit), s.
   KrigedReadings(const LinkReadings& readings, const Eigen::VectorXd& residual,
                  std::shared_ptr<const noise::StatedCorrelation> stated = nullptr,
-                 noise::Family fitted = noise::Family::exponential);
+                 noise::Family fitted = noise::Family::exponential, double time_unit = 0);
   // Without winsorising. An outlier then affects its neighbours' predictions. Without outliers the errors have known
   // variance, while winsorised ones vary less than under a law with rare deep fades.
   KrigedReadings untamed() const;

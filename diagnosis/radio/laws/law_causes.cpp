@@ -25,7 +25,7 @@ KrigedReadings kriged(const LawSources& s, const VectorXd& residual) {
   const noise::Family fitted = s.state.fit.covariance.family;
   const std::vector<noise::Family> likely = s.state.likely_families(fitted);
   const bool as_drawn = std::any_of(likely.begin(), likely.end(), noise::is_stated);
-  return {s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr, fitted};
+  return {s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr, fitted, s.state.time_unit()};
 }
 
 // Monte Carlo test: true if readings that the world itself draws, with the noise of these (`likeliest`), look as much
@@ -100,13 +100,14 @@ Eigen::Vector2d shape_of(const LawSources& s, const noise::Covariance& covarianc
 // Or if nobody can tell, since the draws are too weak to be heard.
 bool world_draws_alike(const LawSources& s, const Diagnosis& found) {
   constexpr int n = thresholds::field_draws;
+  const Eigen::Array<bool, Eigen::Dynamic, 1> measured = s.fit.readings.rssi(s.used).array().isFinite();
   Eigen::Matrix2Xd shapes(2, n);
   for (int k = 0; k < n; ++k) {
     const WorldDraw draw = s.draws.draw(static_cast<uint64_t>(k), found.parameters, {});
     VectorXd error = (draw.drawn - draw.expected)(s.used);
     const auto heard = error.array().isFinite();
-    if (static_cast<double>(heard.count()) < thresholds::heard_of_a_draw * static_cast<double>(error.size()))
-      return true;
+    const auto lost = static_cast<double>((measured && !heard).count());
+    if (lost > (1 - thresholds::heard_of_a_draw) * static_cast<double>(measured.count())) return true;
     error = heard.select(error, 0).eval();
     shapes.col(k) = shape_of(s, fitted_to(s.state, s.state.rows().mean(error)));
   }
@@ -213,8 +214,10 @@ void add_laws_of_readings(const LawSources& s, const VectorXd& both_ways, std::s
                              return c.meaning().kind == MUSTER_LAW && c.plugin->law && replaces(s, c.id) == replacing;
                            }),
                replacing ? of_stated : why, found);
-  const std::string of_field =
-      of_stated.empty() && noise::fixed_share(s.state.fit.covariance.family) > 0 ? shared : of_stated;
+  std::string of_field = of_stated;
+  if (of_field.empty() && s.state.time_unit() > 0)
+    of_field = "not testable: links that stand wander in time, and no field over places can be seen";
+  if (of_field.empty() && noise::fixed_share(s.state.fit.covariance.family) > 0) of_field = shared;
   if (!of_field.empty()) add_tested(fields_of(s), of_field, found);
   if (!why.empty()) return;
   found.notes.insert(found.notes.end(), notes.begin(), notes.end());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "diagnosis/calibration/distributions.hpp"
+#include "diagnosis/inference/noise/over_time.hpp"
 #include "diagnosis/radio/laws/scatter_by_level.hpp"
 #include "diagnosis/radio/laws/testable_readings.hpp"
 #include "diagnosis/radio/links/link_site.hpp"
@@ -177,6 +178,30 @@ std::string places_of(std::size_t count, const std::set<std::string>& links) {
   return count == links.size() ? names : fmt::format("{} ways or places of {}", count, names);
 }
 
+// True if each link has one place, and no noise over time could be fitted: without times, or at a few moments.
+bool may_wander(const LawSources& s) {
+  if (s.state.time_unit() > 0 || noise::fixed_share(s.state.fit.covariance.family) == 0) return false;
+  std::set<LinkSite> sites;
+  std::set<std::pair<int, int>> links;
+  for (Index i = 0; i < s.readings.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    sites.insert(site_of(s.readings, i));
+    links.emplace(s.readings.tx[k], s.readings.rx[k]);
+  }
+  const auto& recurring = s.state.field().recurring();
+  return sites.size() == links.size() &&
+         noise::time_units(recurring, s.state.field().sites(), s.state.problem().layout->times(s.state.rows())).empty();
+}
+
+// The distance [m] over which the field forgets, where the world's fades are of places and the field holds them:
+// readings of several ways past a place have its fade in common. 0 elsewhere.
+double fades_in_field(const LawSources& s) {
+  const LawPart stated = stated_law(s.model).base;
+  const double apart = stated.law ? stated.law->apart(stated.params) : 0;
+  const double distance = noise::stated_by(s.state.fit.covariance, s.state.within()).decorrelation;
+  return s.state.time_unit() == 0 && distance < thresholds::fades_in_field * apart ? distance : 0;
+}
+
 std::string in_words(const ScatterByLevel& scatter) {
   return fmt::format("single readings scatter by {:.1f} dB where levels are low and by {:.1f} dB where they are high",
                      scatter.weak, scatter.strong);
@@ -196,6 +221,15 @@ std::vector<bool> unsure(const LawSources& s, const VectorXd& residual) {
 std::string doubt_of(const LawSources& s, const VectorXd& residual, const KrigedReadings& field, const Diagnosis& found,
                      const LawTest& law) {
   if (replaces(s, law.cause)) {
+    if (may_wander(s))
+      return "single readings of links that stand scatter as by " + law.cause +
+             ", and so do levels that wander between readings: without their times, or at a few moments alone, these "
+             "are not told apart, and it is not named";
+    if (const double distance = fades_in_field(s); distance > 0)
+      return fmt::format(
+          "levels are alike within {:.2f} m, as fades of places are: what single readings scatter by beside them tells "
+          "nothing of these, and no other fading is named",
+          distance);
     const ScatterByLevel scatter = scatter_of(s, residual, field, found);
     return scatter.log_p > std::log(thresholds::scatter_alpha)
                ? ""
@@ -203,6 +237,13 @@ std::string doubt_of(const LawSources& s, const VectorXd& residual, const Kriged
                      ": a receiver does that, by its noise or as it compresses, and no law of fading, so that none is "
                      "named";
   }
+  if (const noise::StatedField field_of_rows = noise::stated_by(s.state.fit.covariance, s.state.within());
+      s.state.time_unit() == 0 && field_of_rows.decorrelation < thresholds::longest_fade &&
+      field_of_rows.shadowing > thresholds::least_fade)
+    return fmt::format(
+        "levels are alike within {:.2f} m alone, as fades of places are, which are deep and rare: readings that are "
+        "off as by {} may be these, and it is not named",
+        field_of_rows.decorrelation, law.cause);
   if (const double near = beside_walls(s, residual, law); near > 0)
     return fmt::format(
         "single readings scatter as by {} only where a move of {:.1f} m changes which walls their link crosses: walls "

@@ -11,8 +11,9 @@ namespace muster::diagnosis {
 // Of each reading that is tested, if walls or places that are as far off as they may be change which walls it crosses.
 std::vector<bool> unsure(const LawSources& sources, const Eigen::VectorXd& residual);
 
-// A sentence: a receiver whose scatter depends on the level, walls or places that are off, readings that are off one
-// after the other. Empty if none of them. `residual`: dB, NaN for a reading that is not tested.
+// A sentence: links that stand and may wander, a receiver whose scatter depends on the level, walls or places that are
+// off, readings that are off one after the other. Empty if none of them. `residual`: dB, NaN for a reading that is not
+// tested.
 std::string doubt_of(const LawSources& sources, const Eigen::VectorXd& residual, const KrigedReadings& field,
                      const Diagnosis& found, const LawTest& law);
 

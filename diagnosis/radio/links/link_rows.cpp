@@ -185,9 +185,17 @@ noise::Sites LinkLayout::sites(const noise::Rows& rows) const {
 
 noise::Rows LinkLayout::long_rows() const { return link_rows(readings_, never_shorter(limits_)); }
 
+std::vector<double> LinkLayout::times(const noise::Rows& rows) const {
+  std::vector<double> result;
+  for (Index row = 0; row < rows.size() && !readings_.t.empty(); ++row)
+    result.push_back(readings_.t[static_cast<std::size_t>(rows.example(row))]);
+  return result;
+}
+
 std::vector<int> LinkLayout::parts_of_time(const noise::Rows& rows) const {
   if (readings_.t.empty()) return {};
-  const auto time = [&](Index row) { return readings_.t[static_cast<std::size_t>(rows.example(row))]; };
+  const std::vector<double> times = this->times(rows);
+  const auto time = [&](Index row) { return times[static_cast<std::size_t>(row)]; };
   std::vector<Index> order(static_cast<std::size_t>(rows.size()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return time(a) < time(b); });

@@ -68,6 +68,7 @@ class LinkLayout : public inference::Layout {
   noise::Rows long_rows() const override;
   noise::Sites sites(const noise::Rows& rows) const override;
   std::vector<inference::Grouping> groupings(const noise::Rows& rows, const noise::Sites& sites) const override;
+  std::vector<double> times(const noise::Rows& rows) const override;
   std::vector<int> parts_of_time(const noise::Rows& rows) const override;
   std::vector<int> stays(const noise::Rows& rows) const override;
   bool sites_known() const override { return places_known_; }

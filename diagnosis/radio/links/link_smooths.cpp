@@ -1,5 +1,6 @@
 #include "diagnosis/radio/links/link_smooths.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -93,7 +94,9 @@ std::vector<Candidate> link_smooths(const LinkReadings& readings, const LinkColu
     add_directions(readings, geometry, result);
     result.push_back(inference::smooth_over("position", geometry.moving.place));
     result.push_back(inference::slope_over("position", geometry.moving.place));
-    if (geometry.moving.climb > thresholds::least_climb)
+    const bool is_measured = std::any_of(columns.covariates.begin(), columns.covariates.end(),
+                                         [](const inference::Covariate& c) { return c.name == "height"; });
+    if (geometry.moving.climb > thresholds::least_climb && !is_measured)
       result.push_back(inference::smooth_of("height", geometry.moving.z, 4));
   }
   add_time(readings, geometry, places_known, result);

@@ -63,7 +63,7 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
   const Index n = sites.size();
   const RecurringSites recurring(sites);
   const double fixed = fixed_share(c.family);
-  const Relation least = fixed_to_stream(c.family) ? Relation::stream : Relation::site;
+  const std::array shared{0.0, fixed_to_site(c.family), fixed};  // by their relation
   Eigen::MatrixXd result(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
@@ -72,7 +72,7 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
       const auto k = [&](double h) { return correlation(c.family, h / c.decorrelation()); };
       result(i, j) = c.field_variance() *
                      ((1 - fixed) * (c.shared() * k(apart.place) + (same ? (1 - c.shared()) * k(apart.both) : 0)) +
-                      (recurring.of(i, j) >= least ? fixed : 0));
+                      shared[static_cast<std::size_t>(recurring.of(i, j))]);
     }
     result(i, i) += c.reading_variance() / sites.count[i] + 1e-3;
   }
@@ -82,6 +82,30 @@ Eigen::MatrixXd dense(const Sites& sites, const Covariance& c) {
 const Theta some{std::log(16.0), std::log(1.7), std::log(2.0), -1.2};
 
 std::vector<Family> all_fixed() { return Field(mesh(30, 2)).fixed_families(); }
+
+// With every part of a share that may be a stream's own.
+std::vector<Family> all_parts() {
+  std::vector<Family> result;
+  for (std::size_t part = 0; part < stream_parts.size(); ++part) {
+    for (std::size_t k = 0; k < fixed_shares.size(); ++k) result.push_back(with_fixed(Family::exponential, k, part));
+  }
+  return result;
+}
+
+TEST(FixedShare, HasNextFamilies) {
+  for (const Family family : all_parts()) {
+    EXPECT_GE(fixed_share(with_more_fixed(family)), fixed_share(family));
+    if (with_more_fixed(family) != family) {
+      EXPECT_EQ(with_less_fixed(with_more_fixed(family)), family);
+    }
+    EXPECT_EQ(stream_part(with_less_fixed(family)), fixed_share(with_less_fixed(family)) > 0 ? stream_part(family) : 0);
+    EXPECT_GE(stream_part(with_more_of_stream(family)), stream_part(family));
+    if (with_more_of_stream(family) != family) {
+      EXPECT_EQ(with_less_of_stream(with_more_of_stream(family)), family);
+    }
+    EXPECT_EQ(fixed_share(with_more_of_stream(family)), fixed_share(family));
+  }
+}
 
 TEST(FixedShare, IsOfOneSite) {
   const Sites sites = mesh(30, 2);
@@ -122,7 +146,7 @@ TEST(FixedShare, OnlyWhereSitesRecur) {
 TEST(FixedShare, LikelihoodIsTheDenseOne) {
   const Sites sites = mesh(20, 2);
   const Field field(sites, {80, 80, 1});
-  for (const Family family : all_fixed()) {
+  for (const Family family : all_parts()) {
     const Covariance c{family, some};
     const Whitener whitener(field, c);
     const Eigen::LLT<Eigen::MatrixXd> root(dense(sites, c));
@@ -143,7 +167,7 @@ TEST(FixedShare, GradientIsThatOfDifferences) {
   const Prior prior;
   Eigen::VectorXd y(sites.size());
   for (Index i = 0; i < y.size(); ++i) y[i] = 3 * Stream(4).normal(static_cast<uint64_t>(i));
-  for (const Family family : all_fixed()) {
+  for (const Family family : all_parts()) {
     const Objective at = objective(field, {family, some}, y, design, prior);
     for (Index p = 0; p < 4; ++p) {
       Theta up = some, down = some;
@@ -164,14 +188,14 @@ TEST(FixedShare, IsFoundInTheDataThatHaveIt) {
   const Eigen::MatrixXd design = Eigen::MatrixXd::Ones(sites.size(), 1);
   const Stream stream(21);
   for (const Family family :
-       {Family::exponential, with_fixed(Family::exponential, 2, true), with_fixed(Family::exponential, 3, false)}) {
+       {Family::exponential, with_fixed(Family::exponential, 2, 1), with_fixed(Family::exponential, 3, 0)}) {
     const Eigen::MatrixXd root = dense(sites, {family, some}).llt().matrixL();
     Eigen::VectorXd z(sites.size());
     for (Index i = 0; i < z.size(); ++i) z[i] = stream.normal(static_cast<uint64_t>(i), static_cast<uint64_t>(family));
     const std::vector<Fit> fits = fit_families(field, root * z, design, {});
     const Family found = fits[0].covariance.family;
     EXPECT_NEAR(fixed_share(found), fixed_share(family), 0.31) << name_of(found) << " for " << name_of(family);
-    EXPECT_EQ(fixed_to_stream(found) && fixed_share(found) > 0.05, fixed_to_stream(family)) << name_of(found);
+    EXPECT_EQ(stream_part(found) == 1 && fixed_share(found) > 0.05, stream_part(family) == 1) << name_of(found);
   }
 }
 

@@ -18,10 +18,9 @@ std::vector<Family> names_of(const std::vector<noise::Fit>& fits) {
 
 // Fits from two shares end in one: the second cost as much as the first and changed nothing.
 TEST(OtherFamilies, AreOneOfThoseThatDifferInTheirFixedShareAlone) {
-  const Family tenth = noise::with_fixed(Family::exponential, 1, false),
-               third = noise::with_fixed(Family::exponential, 2, false),
-               one_way = noise::with_fixed(Family::exponential, 2, true),
-               stated = noise::with_fixed(Family::stated, 2, false);
+  const Family tenth = noise::with_fixed(Family::exponential, 1, 0),
+               third = noise::with_fixed(Family::exponential, 2, 0),
+               one_way = noise::with_fixed(Family::exponential, 2, 1), stated = noise::with_fixed(Family::stated, 2, 0);
   std::vector<noise::Fit> fits;
   for (const Family family : {third, Family::exponential, tenth, Family::gaussian, one_way, stated})
     fits.push_back({{family, noise::Theta::Zero()}});

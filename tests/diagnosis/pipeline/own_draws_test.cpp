@@ -78,7 +78,8 @@ TEST(OwnDraws, ScatterAsTheWorldSays) {
   const Scratch scratch;
   const auto scatter_in = [&](const std::string& said, const std::string& done) {
     const std::filesystem::path measured = drawn_by(scratch, flat(scratch, 16, done));
-    return other_scatter(DiagnosisSetup(flat(scratch, 16, said), measured, plugins));
+    const DiagnosisSetup at(flat(scratch, 16, said), measured, plugins);
+    return other_scatter(at, inference::ModelState(at.problem, at.options));
   };
   const std::string field = "shadowing=\"1\" decorrelation=\"2\" per_reading=\"true\" ";
   const std::string wild = field + "rician_k=\"-40\"", calm = field + "rician_k=\"12\"";
@@ -89,6 +90,24 @@ TEST(OwnDraws, ScatterAsTheWorldSays) {
   ASSERT_TRUE(less && more);
   EXPECT_LT(less->measured, less->least);
   EXPECT_GT(more->measured, more->most);
+}
+
+// A fifth more or less of all scatter is within the range of draws; that of single readings is not.
+TEST(OwnDraws, SingleReadingsScatterAsTheWorldSays) {
+  const auto scatter_in = [&](const std::string& said, const std::string& done) {
+    const Scratch scratch;
+    const std::filesystem::path measured = drawn_by(scratch, flat(scratch, 16, done));
+    const DiagnosisSetup at(flat(scratch, 16, said), measured, plugins);
+    return other_scatter(at, inference::ModelState(at.problem, at.options));
+  };
+  const std::string calm = "rician_k=\"12\" per_reading=\"true\"", wilder = "rician_k=\"9\" per_reading=\"true\"";
+  EXPECT_FALSE(scatter_in(calm, calm));
+  EXPECT_FALSE(scatter_in(wilder, wilder));
+  const auto more = scatter_in(calm, wilder), less = scatter_in(wilder, calm);
+  ASSERT_TRUE(more && less);
+  EXPECT_TRUE(more->of_single && less->of_single);
+  EXPECT_GT(more->measured, more->most);
+  EXPECT_LT(less->measured, less->least);
 }
 
 // A direction that is 0.3 dB weaker is seen beneath fades of 5.6 dB that both share.

@@ -325,7 +325,7 @@ Walk of_fixed_fades(double outliers) {
 
 // What is fixed at a place has a law of its own: only what readings of it differ by is judged.
 TEST(FadingTests, JudgesReadingsOfAPlaceByWhatTheyDifferBy) {
-  const noise::Covariance near{noise::with_fixed(noise::Family::exponential, 3, false), {3.5, 0.4, 0.4, 0}};
+  const noise::Covariance near{noise::with_fixed(noise::Family::exponential, 3, 0), {3.5, 0.4, 0.4, 0}};
   const auto tests_of = [&](double outliers) {
     const Walk walk = of_fixed_fades(outliers);
     KrigedReadings field(walk.readings, walk.residual, nullptr, near.family);

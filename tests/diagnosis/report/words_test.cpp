@@ -173,7 +173,7 @@ TEST(Text, NoiseIsToldAsShadowing) {
                    "Noise: shadowing of 3.00 dB that decorrelates over 2.50 m (the correlation that the world states), "
                    "and 2.00 dB a reading."));
   EXPECT_TRUE(says(text_of(d, {"hall", "a.csv"}), "Noise: shadowing of 3.00 dB that decorrelates"));
-  d.noise.family = noise::with_fixed(noise::Family::exponential, 2, true);
+  d.noise.family = noise::with_fixed(noise::Family::exponential, 2, 1);
   EXPECT_TRUE(says(page_of(d, {"hall", "a.csv"}, {}),
                    "(exponential correlation, 30 % of its variance kept at a place, each way of a link by itself), and "
                    "2.00 dB a reading."));
