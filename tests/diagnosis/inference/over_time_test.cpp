@@ -26,8 +26,8 @@ Sites standing(Index links, Index moments) {
   const Eigen::Matrix3Xd nowhere = Eigen::Matrix3Xd::Zero(3, n);
   Sites sites{nowhere, nowhere, nowhere, nowhere, {}, Eigen::VectorXd::Ones(n)};
   for (Index i = 0; i < n; ++i) {
-    const Index link = i % links;
-    sites.place.col(i) << 5.0 * static_cast<double>(link % 7), 4.0 * static_cast<double>(link / 7), 0;
+    const Index link = i % links, lane = link / 7;
+    sites.place.col(i) << 5.0 * static_cast<double>(link % 7), 4.0 * static_cast<double>(lane), 0;
     sites.anchor.col(i) << 6.0 * static_cast<double>(link % 3), 9, 0;
     sites.group.push_back(static_cast<int>(link % 3));
   }
@@ -36,7 +36,10 @@ Sites standing(Index links, Index moments) {
 
 std::vector<double> times_of(const Sites& sites, Index links) {
   std::vector<double> result;
-  for (Index i = 0; i < sites.size(); ++i) result.push_back(1.7e9 + step * static_cast<double>(i / links));
+  for (Index i = 0; i < sites.size(); ++i) {
+    const Index moment = i / links;
+    result.push_back(1.7e9 + step * static_cast<double>(moment));
+  }
   return result;
 }
 
@@ -84,8 +87,8 @@ Problem problem_of(Index links, Index moments, double wander, uint64_t seed) {
 
 TEST(OverTime, LikelihoodIsTheDenseOne) {
   constexpr Index links = 6, moments = 14, n = links * moments;
-  Sites sites = standing(links, moments);
-  sites = noise::over_time(std::move(sites), times_of(sites, links), memory);
+  const Sites places = standing(links, moments);
+  const Sites sites = noise::over_time(places, times_of(places, links), memory);
   const noise::Field field(sites, {n, n, 1});
   const Covariance c{noise::with_fixed(Family::exponential, 3, 0),
                      {std::log(16.0), std::log(1.7), std::log(2.0), -1.2}};
@@ -93,7 +96,8 @@ TEST(OverTime, LikelihoodIsTheDenseOne) {
   Eigen::MatrixXd dense(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
-      const double apart = step / memory * std::abs(static_cast<double>(i / links - j / links));
+      const Index steps = i / links - j / links;
+      const double apart = step / memory * std::abs(static_cast<double>(steps));
       const bool same = i % links == j % links;
       dense(i, j) =
           c.field_variance() * ((same ? fixed : 0) + (1 - fixed) * (same ? 1 : c.shared()) *
@@ -140,7 +144,10 @@ TEST(OverTime, IsNotChosenForAStepAlone) {
   step.role.time_like = true;
   step.design.columns = [](const Eigen::VectorXd& theta) -> Eigen::MatrixXd {
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(1200, 1);
-    for (Index i = 0; i < 1200; ++i) column(i, 0) = i % 20 == 4 && static_cast<double>(i / 20) >= theta[0];
+    for (Index i = 0; i < 1200; ++i) {
+      const Index moment = i / 20;
+      column(i, 0) = i % 20 == 4 && static_cast<double>(moment) >= theta[0];
+    }
     return column;
   };
   for (int k = 5; k < 60; k += 5) step.design.grid.push_back(Eigen::VectorXd::Constant(1, k));

@@ -14,6 +14,8 @@
 namespace muster::diagnosis {
 namespace {
 
+constexpr const char* columns = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]";
+
 std::filesystem::path field_with(const Scratch& scratch, const std::string& name, const std::string& more) {
   std::filesystem::path file = scratch / name;
   std::ofstream(file) << "<world name=\"field\" dt=\"0.1\" until=\"1\" seed=\"7\">"
@@ -28,7 +30,6 @@ std::filesystem::path field_with(const Scratch& scratch, const std::string& name
 // Lanes 20 m apart over 300 x 200 m but for the place of the thing, a reading of each station every 6 m.
 Diagnosis driven_with(const std::string& thing) {
   const Scratch scratch;
-  constexpr const char* ends = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]";
   std::vector<std::string> rows;
   double t = 0;
   for (double y = 5; y < 200; y += 20) {
@@ -41,7 +42,7 @@ Diagnosis driven_with(const std::string& thing) {
   }
   const auto write = [&](const std::string& name, const std::string& column, const auto& level) {
     std::ofstream out(scratch / name);
-    out << ends << column << '\n';
+    out << columns << column << '\n';
     for (std::size_t i = 0; i < rows.size(); ++i) out << rows[i] << level(static_cast<Eigen::Index>(i)) << '\n';
     return scratch / name;
   };
