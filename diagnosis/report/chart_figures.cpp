@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "diagnosis/radio/thresholds.hpp"
 #include "diagnosis/report/abscissa.hpp"
@@ -120,6 +122,23 @@ pic::ErrorBars bars_of(const std::vector<Bin>& bins, pic::Colour colour) {
   return {.x = c.x, .y = c.mean, .low = c.low, .high = c.high, .colour = colour};
 }
 
+// Rows of the directions of links that a cause in time ever concerns, such as those of one sender: among all others
+// its step would be as small as their share. All rows of another cause.
+std::vector<Index> concerned_by(const CauseEstimate& c, const diagnosis::RowSummary& seen) {
+  std::set<std::pair<int, int>> links;
+  const auto link = [&](Index row) {
+    return std::pair(seen.tx[static_cast<std::size_t>(row)], seen.rx[static_cast<std::size_t>(row)]);
+  };
+  for (Index row = 0; row < c.effect.size(); ++row) {
+    if (c.effect[row] != 0 || !c.changes_in_time() || c.effect.isZero(0)) links.insert(link(row));
+  }
+  std::vector<Index> result;
+  for (Index row = 0; row < c.effect.size(); ++row) {
+    if (links.count(link(row)) > 0) result.push_back(row);
+  }
+  return result;
+}
+
 }  // namespace
 
 pic::Figure staircase(const Diagnosis& d) {
@@ -149,20 +168,26 @@ pic::Figure staircase(const Diagnosis& d) {
 }
 
 pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
-  const Abscissa along = abscissa_of(d.seen, c);
+  Abscissa along = abscissa_of(d.seen, c);
+  const std::vector<Index> rows = concerned_by(c, d.seen);
+  const bool some = static_cast<Index>(rows.size()) < c.effect.size();
+  along.values = along.values(rows).eval();
   // An effect set aside is not in the model, so the residual still contains it.
-  const VectorXd partial = confidence_of(c) == Confidence::set_aside ? d.seen.after : VectorXd(d.seen.after + c.effect);
+  const VectorXd effect = c.effect(rows), after = d.seen.after(rows);
+  const VectorXd partial = confidence_of(c) == Confidence::set_aside ? after : VectorXd(after + effect);
   const auto [low, high] = limits_of(along.values, partial);
   pic::Panel panel{.x = {.label = along.label, .unit = along.unit, .log = along.log, .names = along.names},
                    .y = {.label = "measured − all but this cause", .unit = "dB", .from = low, .to = high},
                    .aspect = 0.45,
                    .legend = true};
-  const std::vector<int> block = blocks_for(d);
+  const std::vector<int> of_all = blocks_for(d);
+  std::vector<int> block;
+  for (const Index row : rows) block.push_back(of_all[static_cast<std::size_t>(row)]);
   panel.layers.emplace_back(dots(along.values, partial, !along.names.empty()));
   panel.layers.emplace_back(pic::Rule{.at = 0});
   if (!along.names.empty()) {
     const auto edges = edges_of_names(along.names.size());
-    const Curve fitted = curve_of(means_over(edges, along.values, c.effect, block));
+    const Curve fitted = curve_of(means_over(edges, along.values, effect, block));
     panel.layers.emplace_back(
         pic::Points{.x = fitted.x, .y = fitted.mean, .label = "the cause", .colour = pic::vermillion, .radius = 6});
     pic::ErrorBars bars = bars_of(means_over(edges, along.values, partial, block), pic::blue);
@@ -170,7 +195,7 @@ pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
     panel.layers.emplace_back(std::move(bars));
   } else {
     const Curve measured = curve_of(means_over(edges_of(along.values, 24, along.log), along.values, partial, block, 3));
-    const Curve fitted = curve_of(means_over(edges_of(along.values, 40, along.log), along.values, c.effect, block, 1));
+    const Curve fitted = curve_of(means_over(edges_of(along.values, 40, along.log), along.values, effect, block, 1));
     panel.layers.emplace_back(pic::Band{.x = measured.x,
                                         .low = measured.low,
                                         .high = measured.high,
@@ -184,9 +209,9 @@ pic::Figure partial_residual(const Diagnosis& d, const CauseEstimate& c) {
   std::string title = sentence(c);
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   return {.title = (confidence_of(c) == Confidence::confirmed ? "" : "Suspected: ") + title,
-          .caption =
-              "Each dot is a row, less all that the extended world says but for this cause. The band is of the "
-              "mean over a part of the axis, by resampling blocks of space.",
+          .caption = std::string("Each dot is a row") + (some ? " of the links that it concerns" : "") +
+                     ", less all that the extended world says but for this cause. The band is of the mean over a part "
+                     "of the axis, by resampling blocks of space.",
           .panels = {panel}};
 }
 
