@@ -23,13 +23,13 @@ struct Reading {
 };
 
 struct DataLinks {
-  static constexpr auto id = "data.links/1";
+  static constexpr auto id = "data.links/2";
   static constexpr auto summary = "lists the links of a table of measured readings";
   static constexpr auto manual =
       "Lists in every tick all readings of `file`: reading i is link i, from endpoint 2 i to endpoint 2 i + 1, at the\n"
       "places and the time that were measured. It stands in for radio.links; the terms of the channel do not notice.\n"
       "Columns: t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],tx_yaw[rad],rx_x[m],rx_y[m],rx_z[m],rx_yaw[rad]; t, z and yaw may\n"
-      "be absent: then the time is the tick's, the height that of the radio's mount, the heading 0.\n"
+      "be absent: then the time is the tick's, height and heading are those of the radio's mount.\n"
       "Without x and y, distance[m]: the sender stands at the origin, the receiver so far to the east of it.\n"
       "`aside` and `along` move whole links and change neither lengths nor bearings: what changes all the same, such "
       "as\n"
@@ -75,7 +75,7 @@ struct DataLinks {
   }
 
   static Pose placed(const Reading::Place& at, const Mount& on) {
-    const double yaw = is_null(at.yaw) ? 0 : at.yaw;
+    const double yaw = is_null(at.yaw) ? on.yaw : at.yaw;
     return {at.x, at.y, is_null(at.z) ? on.z : at.z, std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)};
   }
 

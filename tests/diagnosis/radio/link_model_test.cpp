@@ -1,4 +1,4 @@
-// Expected readings of links that pass closely by the end of a wall.
+// Expected readings: of links that pass closely by the end of a wall, and of radios whose heading no reading states.
 #include "diagnosis/radio/links/link_model.hpp"
 
 #include <gtest/gtest.h>
@@ -41,6 +41,27 @@ TEST(LinkModel, ListsLinksThatEndCloseToAWall) {
   LinkModel model(world, scratch.write("readings.csv", table), plugins);
   const Eigen::Vector4d wanted(0, 7.5, 7.5, 0);
   EXPECT_TRUE(model.changes_nearby(0.02).isApprox(wanted, 1e-9)) << model.changes_nearby(0.02).transpose();
+}
+
+// A table without headings leaves a station at that which the world gives it: its sector looks north.
+TEST(LinkModel, TakesTheHeadingOfAStationFromTheWorld) {
+  const Scratch scratch;
+  const auto world =
+      scratch.write("world.xml",
+                    "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n"
+                    "  <station name=\"a\" at=\"0 0 1\" yaw=\"1.5707963\"/>\n  <radio.multiwall/>\n"
+                    "  <effect.sector_antenna radio=\"a\" front_to_back=\"20\" edge=\"0.8\"/>\n</world>\n");
+  const std::string places = "a,b,0,0,0,10", to_the_east = "a,b,0,0,10,0";
+  const auto level = [&](const std::string& heading, const std::string& column) {
+    LinkModel model(world,
+                    scratch.write("readings.csv", "tx,rx,tx_x[m],tx_y[m],rx_x[m],rx_y[m]" + column + ",rssi[dBm]\n" +
+                                                      places + heading + ",-60\n" + to_the_east + heading + ",-60\n"),
+                    plugins);
+    return Eigen::Vector2d(model.expected());
+  };
+  const Eigen::Vector2d of_the_world = level("", ""), of_the_table = level(",0", ",tx_yaw[rad]");
+  EXPECT_NEAR(of_the_world[0] - of_the_world[1], 20, 1e-6);
+  EXPECT_NEAR(of_the_table[1] - of_the_table[0], 20, 1e-6);
 }
 
 }  // namespace
