@@ -33,12 +33,25 @@ noise::Family with_share_of(noise::Family other, noise::Family family) {
   return family;
 }
 
+// Scatter of readings in the data beyond that of a draw, of which all draws have the same. Where a model scatters its
+// readings less than they do, the structure of its field would count as if nothing hid it.
+double missing_variance(const ModelState& state, const Eigen::VectorXd& draw) {
+  const noise::Covariance& fitted = state.fit.covariance;
+  const noise::Covariance start{noise::Family::exponential, fitted.theta};
+  const noise::Fit of_draw = noise::fit(state.field(), draw, state.base(), state.options().prior, start);
+  return std::max(0.0, fitted.reading_variance() - of_draw.covariance.reading_variance());
+}
+
 }  // namespace
 
 double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate,
                        const noise::StatedField& field) {
-  const Eigen::MatrixXd& drawn = state.drawn(field);
-  if (drawn.cols() == 0) return 1;
+  if (state.drawn(field).cols() == 0) return 1;
+  Eigen::MatrixXd drawn = state.drawn(field);
+  const Eigen::ArrayXd scatter =
+      (missing_variance(state, drawn.col(0)) / state.field().sites().count.array().cast<double>()).sqrt();
+  for (Index j = 0; j < drawn.cols(); ++j)
+    drawn.col(j).array() += scatter * state.normals().col(j % state.normals().cols()).cast<double>().array();
   Eigen::MatrixXd white = model.at.basis.rest(model.whitener(drawn));
   // The field's own size is fitted in every data set anew.
   std::vector<Index> sharing;
