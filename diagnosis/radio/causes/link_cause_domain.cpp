@@ -20,10 +20,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// True for objects that attenuate links through them: they cannot lie where a radio was driven.
+// True for objects that attenuate links through them.
 bool stands(const inference::Candidate& c) { return !c.role.pieces.empty(); }
 
+// False where a radio was driven through it, which none can be but a hill or a wood.
 bool clear_of_ways(const CauseShape& shape, const MeasurementGeometry& geometry, const VectorXd& t) {
+  if (geometry.scale > 1 && shape.place == PlaceShape::point) return true;
   if (shape.place == PlaceShape::segment) return driven_across(geometry, t[1], t[2], t[3], t[4]) == 0;
   return !driven_through(geometry, t[1], t[2], shape.axes.empty() ? 0.5 : std::exp(t[3]));
 }
@@ -136,6 +138,7 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.role.slow = !time && !heading && !(placed && c.design.sign && decibels);
   c.role.level_like = shape.set().empty() && !placed && !time;
   if (placed && !c.role.slow) c.role.pieces = "place";
+  if (placed && geometry_.scale > 1) c.role.slow = true;  // a hill changes levels as slowly as a field does
   std::tie(c.covariates, c.role.replaces) = covariates_of(shape);
   c.role.over_sites = c.own() == "map";
   if (!c.refinement.any()) return;

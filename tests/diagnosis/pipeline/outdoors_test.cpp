@@ -1,4 +1,5 @@
-// What stands outdoors is as much larger as the area is: a wall of 30 m, and a hill, are found as things of a room are.
+// What stands outdoors is as much larger as the area is: a wall of 30 m, a hill, and a wood that was driven through,
+// are found as things of a room are.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -27,15 +28,15 @@ std::filesystem::path field_with(const Scratch& scratch, const std::string& name
   return file;
 }
 
-// Lanes 20 m apart over 300 x 200 m but for the place of the thing, a reading of each station every 6 m.
-Diagnosis driven_with(const std::string& thing) {
+// Lanes 20 m apart over 300 x 200 m but for a disk around the middle, a reading of each station every 6 m.
+Diagnosis driven_with(const std::string& thing, double left_out = 32) {
   const Scratch scratch;
   std::vector<std::string> rows;
   double t = 0;
   for (double y = 5; y < 200; y += 20) {
     for (double x = 0; x < 300; x += 6, t += 2) {
       const double at = std::lround(y / 20) % 2 ? 300 - x : x;
-      if (std::hypot(at - 150, y - 100) < 32) continue;
+      if (std::hypot(at - 150, y - 100) < left_out) continue;
       for (const char* station : {"west,rover,-10,100,6", "south,rover,160,-20,5", "east,rover,320,150,8"})
         rows.push_back(print_real(t) + ',' + station + ',' + print_real(at) + ',' + print_real(y) + ",1");
     }
@@ -78,6 +79,17 @@ TEST(Outdoors, AHillIsFound) {
   EXPECT_NEAR(value_of(hill, "x"), 150, 15);
   EXPECT_NEAR(value_of(hill, "y"), 100, 15);
   EXPECT_NEAR(value_of(hill, "radius"), 22, 10);
+}
+
+TEST(Outdoors, AWoodIsFoundThatWasDrivenThrough) {
+  const Diagnosis found =
+      driven_with("<effect.obstacle x=\"170\" y=\"110\" radius=\"45\" loss=\"12\" height=\"30\"/>", 0);
+  ASSERT_FALSE(found.causes.empty());
+  const CauseEstimate& wood = found.causes[0];
+  EXPECT_EQ(wood.id, "effect.obstacle");
+  EXPECT_NEAR(value_of(wood, "x"), 170, 20);
+  EXPECT_NEAR(value_of(wood, "y"), 110, 20);
+  EXPECT_NEAR(value_of(wood, "radius"), 45, 15);
 }
 
 }  // namespace
