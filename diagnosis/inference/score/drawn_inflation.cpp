@@ -1,6 +1,7 @@
 #include "diagnosis/inference/score/drawn_inflation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "diagnosis/inference/state/null_calibration.hpp"
@@ -33,13 +34,22 @@ noise::Family with_share_of(noise::Family other, noise::Family family) {
   return family;
 }
 
-// Scatter of readings in the data beyond that of a draw, of which all draws have the same. Where a model scatters its
-// readings less than they do, the structure of its field would count as if nothing hid it.
-double missing_variance(const ModelState& state, const Eigen::VectorXd& draw) {
-  const noise::Covariance& fitted = state.fit.covariance;
-  const noise::Covariance start{noise::Family::exponential, fitted.theta};
-  const noise::Fit of_draw = noise::fit(state.field(), draw, state.base(), state.options().prior, start);
-  return std::max(0.0, fitted.reading_variance() - of_draw.covariance.reading_variance());
+// The draws, with readings that scatter as the data's do by this covariance, of which the first draw tells what they
+// lack. Where a model scatters its readings less, the structure of its field would count as if nothing hid it. Half
+// differences have a scatter of their own.
+Eigen::MatrixXd as_scattered(const ModelState& state, Eigen::MatrixXd drawn, const noise::Covariance& covariance) {
+  const noise::Sites& sites = state.field().sites();
+  const double of_draws = noise::fit(state.field(), drawn.col(0), state.base(), state.options().prior, covariance)
+                              .covariance.reading_variance();
+  const double missing = covariance.reading_variance() - of_draws;
+  if (missing <= 0) return drawn;
+  for (Index i = 0; i < drawn.rows(); ++i) {
+    if (sites.is_alone(i)) continue;
+    const double scatter = std::sqrt(missing / sites.count[i]);
+    for (Index j = 0; j < drawn.cols(); ++j)
+      drawn(i, j) += scatter * static_cast<double>(state.normals()(i, j % state.normals().cols()));
+  }
+  return drawn;
 }
 
 }  // namespace
@@ -47,11 +57,7 @@ double missing_variance(const ModelState& state, const Eigen::VectorXd& draw) {
 double drawn_inflation(const ModelState& state, const WhitenedModel& model, const Candidate& candidate,
                        const noise::StatedField& field) {
   if (state.drawn(field).cols() == 0) return 1;
-  Eigen::MatrixXd drawn = state.drawn(field);
-  const Eigen::ArrayXd scatter =
-      (missing_variance(state, drawn.col(0)) / state.field().sites().count.array().cast<double>()).sqrt();
-  for (Index j = 0; j < drawn.cols(); ++j)
-    drawn.col(j).array() += scatter * state.normals().col(j % state.normals().cols()).cast<double>().array();
+  const Eigen::MatrixXd drawn = as_scattered(state, state.drawn(field), model.whitener.covariance());
   Eigen::MatrixXd white = model.at.basis.rest(model.whitener(drawn));
   // The field's own size is fitted in every data set anew.
   std::vector<Index> sharing;
