@@ -202,10 +202,12 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   if (!blockage) {
     Diagnosis corrected = Diagnosed{world, data, plugins, tables, watch, end}.put_right(first, found);
     if (watch.stop()) return interrupted(std::move(found));
+    add_searched(verdict, corrected);
     if (!exchanged.cause) return corrected;
     watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);
     auto other = Diagnosed{world, data, plugins, tables, watch, end}.corrected_for(exchanged, found, false);
     if (watch.stop()) return interrupted(std::move(found));
+    if (other) add_searched(verdict, *other);
     const bool both = other && other->unseen && corrected.unseen;
     return both && other->unseen->after.mean() < corrected.unseen->after.mean() ? *other : corrected;
   }
@@ -222,6 +224,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
     return result;
   }
   again.added_radios = found.added_radios;
+  add_searched(verdict, again);
   if (first.causes[0].doubt.empty()) first.causes[0].doubt = doubt_by_imitator(first.causes[0], again.checks, causes);
   add_blockage(first.causes[0], again);
   return again;
