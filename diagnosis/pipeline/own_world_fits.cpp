@@ -9,6 +9,7 @@
 
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
+#include "diagnosis/radio/links/measurement_geometry.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -58,7 +59,8 @@ VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) 
   return result;
 }
 
-OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup) : s_(setup), moved_(setup.model) {
+OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup)
+    : s_(setup), moved_(setup.model), scale_(measurement_geometry(setup.model, setup.data).scale) {
   const ObservedLevels levels = observed_levels(s_.data, s_.receiver, s_.fitted.readings, s_.used.rows);
   std::vector<Index> known;
   for (std::size_t i = 0; i < s_.used.rows.size(); ++i) {
@@ -138,9 +140,9 @@ InPlan OwnWorldFits::moved_to_best(Supposed& supposed, const InPlan& start) {
   };
   inference::Candidate place;
   const Eigen::Vector2d at(start[0], start[1]);
-  place.refinement.lower = at.array() - thresholds::own_world_reach;
-  place.refinement.upper = at.array() + thresholds::own_world_reach;
-  place.refinement.step = Eigen::Vector2d::Ones();
+  place.refinement.lower = at.array() - thresholds::own_world_reach * scale_;
+  place.refinement.upper = at.array() + thresholds::own_world_reach * scale_;
+  place.refinement.step = Eigen::Vector2d::Constant(scale_);
   const VectorXd best = inference::local_search(place, at, 40, value).first;
   return {best[0], best[1]};
 }

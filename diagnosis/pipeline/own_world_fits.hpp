@@ -75,6 +75,7 @@ class OwnWorldFits {
   std::vector<std::size_t> radio_;
   std::set<std::size_t> radios_;
   Eigen::VectorXd y_;
+  double scale_;  // of the area, by which a plan may be off as much farther
 };
 
 // Each less the mean of its group.

@@ -124,7 +124,7 @@ std::optional<InPlan> common_move(const LinkModel& model, const std::vector<Caus
 }
 
 // From which the move of a plan is sought: in all directions, and as far as radios have been found to be off.
-std::vector<InPlan> first_moves(const LinkModel& model, const std::vector<CauseEstimate>& found) {
+std::vector<InPlan> first_moves(const LinkModel& model, const std::vector<CauseEstimate>& found, double scale) {
   std::vector<InPlan> result;
   if (const auto move = common_move(model, found)) {
     result.push_back(*move);
@@ -133,7 +133,7 @@ std::vector<InPlan> first_moves(const LinkModel& model, const std::vector<CauseE
   for (const double far : {thresholds::own_world_near_move, thresholds::own_world_far_move}) {
     for (const InPlan& way :
          {InPlan{1, 0}, {0.7, 0.7}, {0, 1}, {-0.7, 0.7}, {-1, 0}, {-0.7, -0.7}, {0, -1}, {0.7, -0.7}})
-      result.push_back({far * way[0], far * way[1]});
+      result.push_back({scale * far * way[0], scale * far * way[1]});
   }
   return result;
 }
@@ -195,7 +195,8 @@ Hypotheses hypotheses_of(const DiagnosisSetup& setup, const Diagnosis& found) {
   const std::vector<MappedWall>& walls = found.seen.walls;
   Hypotheses result;
   const MeasurementGeometry geometry = measurement_geometry(setup.model, setup.data);
-  const std::vector<InPlan> places = middles_of(geometry, walls), moves = first_moves(setup.model, found.causes);
+  const std::vector<InPlan> places = middles_of(geometry, walls),
+                            moves = first_moves(setup.model, found.causes, geometry.scale);
   for (const Cause& cause : setup.causes) {
     if (!cause.needs_own_world() && !exchanges_names(cause)) continue;
     const auto rows = rows_for(cause, setup.model, geometry);

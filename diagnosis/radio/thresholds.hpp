@@ -127,6 +127,11 @@ inline constexpr double both_ends_share = 0.05;
 // m; mean extent of an area, from which what stands in it is sought larger in proportion; chosen;
 // Outdoors.AWallIsFoundThatIsTenTimesAsLong
 inline constexpr double extent_of_a_building = 60;
+// m; smallest radius of a hill or a wood, which can be driven through; chosen;
+// Outdoors.AWoodIsFoundThatWasDrivenThrough
+inline constexpr double smallest_wood = 2;
+// share; of that radius, within which no radio stands; chosen; none
+inline constexpr double well_inside = 0.9;
 // m; beyond which a step is no way that was driven; chosen; none
 inline constexpr double longest_step = 2;
 // m; range of heights from which these vary; chosen; none
@@ -480,9 +485,10 @@ inline constexpr double second_station_apart = 2;
 
 // radios; that stand, by which a plan shows how it is turned; derived; none
 inline constexpr std::size_t fewest_standing = 3;
-// m; how far a plan is moved where that is first tried; chosen; OwnWorldLoop.IsNamedAndTheExtendedWorldIsSilent
+// m; how far a plan is moved where that is first tried, outdoors as many times as far as its scale; chosen;
+// OwnWorldLoop.IsNamedAndTheExtendedWorldIsSilent
 inline constexpr double own_world_near_move = 2;
-// m; the same, further off; chosen; none
+// m; the same, further off; chosen; Outdoors.APlanIsFoundThatIsShiftedByAHundredMetres
 inline constexpr double own_world_far_move = 7;
 // readings; by which worlds are judged, evenly spread; chosen; none
 inline constexpr std::size_t own_world_readings = 2000;
@@ -501,7 +507,8 @@ inline constexpr std::size_t own_worlds_built = 8;
 inline constexpr double own_world_share = 0.998;
 // worlds; whose noise is fitted, the best by least squares; chosen; none
 inline constexpr std::size_t own_worlds_fitted = 4;
-// m; by which the point about which a plan is turned lies off a middle at most; chosen; none
+// m; by which the point about which a plan is turned, or a move, lies off its start at most, times the scale; chosen;
+// none
 inline constexpr double own_world_reach = 20;
 // nats; between hypotheses of which the simplest is named; chosen; none
 inline constexpr double own_world_even = 2;

@@ -23,11 +23,11 @@ struct RoomClutter {
   static constexpr Param params[] = {
       real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),
       real("y", 0, -1e6, 1e6, "m", "middle, north").required().free().with(MUSTER_NORTH),
-      real("length", 4, 0.1, 1e3, "m", "along the heading").free().with(MUSTER_LOG),
-      real("width", 4, 0.1, 1e3, "m", "across the heading").free().with(MUSTER_LOG),
+      real("length", 4, 0.1, 1e4, "m", "along the heading").free().with(MUSTER_LOG),
+      real("width", 4, 0.1, 1e4, "m", "across the heading").free().with(MUSTER_LOG),
       real("heading", 0, -3.141592653589793, 3.141592653589793, "rad", "of its length, from east to north")
           .with(MUSTER_CYCLIC),
-      real("depth", 0.8, 0.05, 10, "m", "way inside on which all but 37 % of the loss is met").free().with(MUSTER_LOG),
+      real("depth", 0.8, 0.05, 1e3, "m", "way inside on which all but 37 % of the loss is met").free().with(MUSTER_LOG),
       real("height", 2.7, 0.01, 1e4, "m", "up to which things stand").free(),
       real("loss", 0, -40, 40, "dB", "of a link that goes far inside it").free().with(MUSTER_LINEAR),
   };

@@ -23,11 +23,14 @@ using Eigen::VectorXd;
 // True for objects that attenuate links through them.
 bool stands(const inference::Candidate& c) { return !c.role.pieces.empty(); }
 
-// False where a radio was driven through it, which none can be but a hill or a wood.
+// False where a radio was driven through it, which none can be but a hill or a wood; and where a radio stands in that.
 bool clear_of_ways(const CauseShape& shape, const MeasurementGeometry& geometry, const VectorXd& t) {
-  if (geometry.scale > 1 && shape.place == PlaceShape::point) return true;
   if (shape.place == PlaceShape::segment) return driven_across(geometry, t[1], t[2], t[3], t[4]) == 0;
-  return !driven_through(geometry, t[1], t[2], shape.axes.empty() ? 0.5 : std::exp(t[3]));
+  const double radius = shape.axes.empty() ? 0.5 : std::exp(t[3]);
+  if (geometry.scale == 1 || radius < thresholds::smallest_wood) return !driven_through(geometry, t[1], t[2], radius);
+  return std::none_of(geometry.standing.begin(), geometry.standing.end(), [&](const auto& at) {
+    return std::hypot(at[0] - t[1], at[1] - t[2]) < thresholds::well_inside * radius;
+  });
 }
 
 // The same places, with the axes of another theta.
@@ -118,8 +121,9 @@ void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement
     out.step.segment(1, 2).setConstant(scale * (places == 4 ? 0.4 : 0.3));
   }
   if (places == 4) {
-    out.lower.segment(3, 2) << 0.8, -4;
-    out.upper.segment(3, 2) << scale * (shape.is_strip() ? 40 : 9), 4;
+    out.lower.segment(3, 2) << 0.8 * scale, -4;
+    const double across = std::hypot(geometry_.east.length(), geometry_.north.length());
+    out.upper.segment(3, 2) << (shape.is_strip() ? std::max(scale * 40, across) : scale * 40), 4;
     out.step.segment(3, 2) << scale * 0.8, 0.12;
   }
   if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)

@@ -10,12 +10,13 @@ Axis length(const muster_param& p, const MeasurementGeometry& s, const CauseShap
   const double u = s.scale;
   if (shape.place == PlaceShape::segment) return logarithmic(p, 0.8, 6 * u, {1.5 * u, 3 * u}, 0.2);
   if (shape.place == PlaceShape::point && shape.has_heading_of_plan()) {
-    return p.max > 10 ? logarithmic(p, 1, 60, {3, 6}, 0.05) : logarithmic(p, 0.2, 5, {0.5, 1.5}, 0.4);
+    if (p.value < 1) return logarithmic(p, 0.2, 5 * u, {0.5 * u, 1.5 * u}, 0.4);  // depth
+    return logarithmic(p, 1, 60 * u, {3 * u, 6 * u}, 0.05);
   }
   const bool is_of_a_thing = p.max <= 10 || p.value < 1;
   // Hills and woods take up more of their area than things of a room do.
   if (shape.place == PlaceShape::point && is_of_a_thing && u > 1)
-    return logarithmic(p, 0.15, 15 * u, {0.45 * u, 0.8 * u, 2.5 * u, 5 * u, 10 * u}, 0.3);
+    return logarithmic(p, 0.15 * u, 15 * u, {0.45 * u, 0.8 * u, 2.5 * u, 5 * u, 10 * u}, 0.3);
   if (shape.place == PlaceShape::point && is_of_a_thing) return logarithmic(p, 0.15, 1.5, {0.45, 0.8}, 0.3);
   if (shape.place == PlaceShape::point) return logarithmic(p, 1.5, 15, {3, 6}, 0.2);
   const double low = std::log(s.distance.low * 1.1), high = std::log(s.distance.high * 0.8);

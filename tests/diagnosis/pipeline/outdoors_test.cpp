@@ -17,11 +17,23 @@ namespace {
 
 constexpr const char* columns = "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]";
 
-std::filesystem::path field_with(const Scratch& scratch, const std::string& name, const std::string& more) {
+// How far from where they are stations are listed, m.
+struct Listed {
+  double east = 0, north = 0;
+};
+
+std::string place(double x, double y, Listed by, const char* separator) {
+  return print_real(x + by.east) + separator + print_real(y + by.north) + separator;
+}
+
+std::filesystem::path field_with(const Scratch& scratch, const std::string& name, const std::string& more,
+                                 Listed by = {}) {
   std::filesystem::path file = scratch / name;
   std::ofstream(file) << "<world name=\"field\" dt=\"0.1\" until=\"1\" seed=\"7\">"
-                      << "<station name=\"west\" at=\"-10 100 6\"/><station name=\"south\" at=\"160 -20 5\"/>"
-                      << "<station name=\"east\" at=\"320 150 8\"/><station name=\"rover\" at=\"0 0 1\"/>"
+                      << "<station name=\"west\" at=\"" << place(-10, 100, by, " ")
+                      << "6\"/><station name=\"south\" at=\"" << place(160, -20, by, " ")
+                      << "5\"/><station name=\"east\" at=\"" << place(320, 150, by, " ")
+                      << "8\"/><station name=\"rover\" at=\"0 0 1\"/>"
                       << "<radio.multiwall tx_power=\"10\" l0=\"35\" n=\"2.5\"/>"
                       << "<radio.fading shadowing=\"2\" decorrelation=\"12\" rician_k=\"8\" per_reading=\"true\"/>"
                       << "<radio.receiver sensitivity=\"-200\"/>" << more << "</world>";
@@ -29,29 +41,36 @@ std::filesystem::path field_with(const Scratch& scratch, const std::string& name
 }
 
 // Lanes 20 m apart over 300 x 200 m but for a disk around the middle, a reading of each station every 6 m.
-Diagnosis driven_with(const std::string& thing, double left_out = 32) {
-  const Scratch scratch;
+std::vector<std::string> tour(double left_out, Listed by) {
   std::vector<std::string> rows;
   double t = 0;
   for (double y = 5; y < 200; y += 20) {
     for (double x = 0; x < 300; x += 6, t += 2) {
       const double at = std::lround(y / 20) % 2 ? 300 - x : x;
       if (std::hypot(at - 150, y - 100) < left_out) continue;
-      for (const char* station : {"west,rover,-10,100,6", "south,rover,160,-20,5", "east,rover,320,150,8"})
+      for (const std::string& station :
+           {"west,rover," + place(-10, 100, by, ",") + '6', "south,rover," + place(160, -20, by, ",") + '5',
+            "east,rover," + place(320, 150, by, ",") + '8'})
         rows.push_back(print_real(t) + ',' + station + ',' + print_real(at) + ',' + print_real(y) + ",1");
     }
   }
-  const auto write = [&](const std::string& name, const std::string& column, const auto& level) {
+  return rows;
+}
+
+Diagnosis driven_with(const std::string& thing, double left_out = 32, Listed by = {}) {
+  const Scratch scratch;
+  const auto write = [&](const std::string& name, const std::vector<std::string>& rows, const std::string& column,
+                         const auto& level) {
     std::ofstream out(scratch / name);
     out << columns << column << '\n';
     for (std::size_t i = 0; i < rows.size(); ++i) out << rows[i] << level(static_cast<Eigen::Index>(i)) << '\n';
     return scratch / name;
   };
-  const auto asked = write("asked.csv", "", [](Eigen::Index) { return ""; });
+  const auto asked = write("asked.csv", tour(left_out, {}), "", [](Eigen::Index) { return ""; });
   const Eigen::VectorXd drawn = LinkModel(field_with(scratch, "true.xml", thing), asked, plugins).drawn();
-  const auto measured =
-      write("measured.csv", ",rssi[dBm]", [&](Eigen::Index i) { return ',' + print_real(std::round(drawn[i])); });
-  return diagnose(field_with(scratch, "world.xml", ""), measured, plugins);
+  const auto measured = write("measured.csv", tour(left_out, by), ",rssi[dBm]",
+                              [&](Eigen::Index i) { return ',' + print_real(std::round(drawn[i])); });
+  return diagnose(field_with(scratch, "world.xml", "", by), measured, plugins);
 }
 
 double value_of(const CauseEstimate& cause, const std::string& name) {
@@ -90,6 +109,15 @@ TEST(Outdoors, AWoodIsFoundThatWasDrivenThrough) {
   EXPECT_NEAR(value_of(wood, "x"), 170, 20);
   EXPECT_NEAR(value_of(wood, "y"), 110, 20);
   EXPECT_NEAR(value_of(wood, "radius"), 45, 15);
+}
+
+TEST(Outdoors, APlanIsFoundThatIsShiftedByAHundredMetres) {
+  const Diagnosis found = driven_with("", 0, {80, -60});
+  ASSERT_FALSE(found.causes.empty());
+  const CauseEstimate& shift = found.causes[0];
+  EXPECT_EQ(shift.id, "effect.plan_shifted");
+  EXPECT_NEAR(std::abs(value_of(shift, "east")), 80, 10);
+  EXPECT_NEAR(std::abs(value_of(shift, "north")), 60, 10);
 }
 
 }  // namespace
