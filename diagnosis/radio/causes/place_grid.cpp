@@ -65,6 +65,32 @@ std::vector<VectorXd> around_radios(const CauseShape& shape, const MeasurementGe
   return result;
 }
 
+// Strips along and across the plan through radios that stand: over the whole area, and to either side of the radio. A
+// long strip is not met from a short piece of it.
+std::vector<VectorXd> through_radios(const MeasurementGeometry& s) {
+  constexpr std::size_t most = 12;
+  std::vector<VectorXd> result;
+  for (std::size_t k = 0; k < std::min(most, s.standing.size()); ++k) {
+    const Eigen::Vector2d radio(s.standing[k][0], s.standing[k][1]);
+    for (const double angle : {s.plan_angle, s.plan_angle + pi / 2}) {
+      const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+      double low = 0, high = 0;  // m, from the radio
+      for (const double x : {s.east.low, s.east.high}) {
+        for (const double y : {s.north.low, s.north.high}) {
+          const double at = along.dot(Eigen::Vector2d(x, y) - radio);
+          low = std::min(low, at), high = std::max(high, at);
+        }
+      }
+      for (const auto& [from, to] : {std::pair(low, high), std::pair(low, 0.0), std::pair(0.0, high)}) {
+        const Eigen::Vector2d middle = radio + along * (from + to) / 2;
+        if (to - from > thresholds::shortest_strip * s.scale)
+          result.push_back(Eigen::Vector4d(middle.x(), middle.y(), to - from, angle));
+      }
+    }
+  }
+  return result;
+}
+
 double inside(double value, const Axis& axis) { return std::clamp(value, axis.lower, axis.upper); }
 
 std::vector<VectorXd> between_walls(const CauseShape& shape, const MeasurementGeometry& survey) {
@@ -102,7 +128,12 @@ std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeomet
   if (shape.is_room() && !survey.rooms.empty()) return rooms_of_plan(shape, survey);
   if (shape.is_strip() && !survey.strips.empty()) return between_walls(shape, survey);
   if (shape.place == PlaceShape::none) return start_grid(shape, {VectorXd()});
-  return start_grid(shape, places_over(shape.place, survey, !stands));
+  std::vector<VectorXd> places = places_over(shape.place, survey, !stands);
+  if (shape.is_strip()) {
+    const std::vector<VectorXd> more = through_radios(survey);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  return start_grid(shape, places);
 }
 
 }  // namespace muster::diagnosis
