@@ -30,7 +30,7 @@ TEST(Bundle, RunsWithoutItsSources) {
 // What was unpacked stayed in the folder of temporary files.
 TEST(Bundle, ACheckThatIsInterruptedLeavesNothingBehind) {
   const BundleFolder folder;
-  ASSERT_EQ(folder.bundle({"lab/site", "--until", "1000", "--out", "b.tar.zst"}).exit, 0);
+  ASSERT_EQ(folder.bundle({"lab/site", "--until", "10000", "--out", "b.tar.zst"}).exit, 0);
   fs::create_directory(folder / "tmp");
   Surroundings around;
   around.environment = {"TMPDIR=" + folder.at("tmp")};
