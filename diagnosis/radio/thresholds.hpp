@@ -127,6 +127,8 @@ inline constexpr double both_ends_share = 0.05;
 // m; mean extent of an area, from which what stands in it is sought larger in proportion; chosen;
 // Outdoors.AWallIsFoundThatIsTenTimesAsLong
 inline constexpr double extent_of_a_building = 60;
+// m; longest wall that is sought as one; chosen; SpatialScan.FindsALongSegment
+inline constexpr double longest_wall = 40;
 // m; smallest radius of a hill or a wood, which can be driven through; chosen;
 // Outdoors.AWoodIsFoundThatWasDrivenThrough
 inline constexpr double smallest_wood = 2;
@@ -224,6 +226,9 @@ inline constexpr double same_place = 0.1;
 inline constexpr double wall_charge = 8.3;
 // nats; charge of refinement of a thing; measured; none
 inline constexpr double thing_charge = 7.0;
+// nats; more of a thing outdoors, whose radius is sought over ten times the range; chosen;
+// RadioField.IsAsOtherEvidenceSaysAndClaimsNothingThatHeldOutDataRefute
+inline constexpr double outdoor_charge = 2;
 // nats; charge of refinement of a room or strip of the plan; measured; none
 inline constexpr double given_place_charge = 0.5;
 // nats; charge of refinement of any other place; measured; none

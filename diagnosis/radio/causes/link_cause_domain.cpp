@@ -123,7 +123,8 @@ void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement
   if (places == 4) {
     out.lower.segment(3, 2) << 0.8 * scale, -4;
     const double across = std::hypot(geometry_.east.length(), geometry_.north.length());
-    out.upper.segment(3, 2) << (shape.is_strip() ? std::max(scale * 40, across) : scale * 40), 4;
+    const double longest_wall = std::max(scale * 9, thresholds::longest_wall);
+    out.upper.segment(3, 2) << (shape.is_strip() ? std::max(scale * 40, across) : longest_wall), 4;
     out.step.segment(3, 2) << scale * 0.8, 0.12;
   }
   if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)
@@ -155,7 +156,8 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
 // and 1.1, strips on a grid 2.0, rooms of the plan 0.2, moved radios -4.9, all others 0.1 to 1.1 (median of three to
 // five; standard error 0.4). It grows by half a nat for each searched parameter towards the tail, where decisions fall.
 double LinkCauseDomain::charge_of(const CauseShape& shape, const inference::Candidate& c) const {
-  if (stands(c)) return shape.place == PlaceShape::segment ? thresholds::wall_charge : thresholds::thing_charge;
+  if (stands(c) && shape.place == PlaceShape::segment) return thresholds::wall_charge;
+  if (stands(c)) return thresholds::thing_charge + (geometry_.scale > 1 ? thresholds::outdoor_charge : 0);
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT) return 0;
   if (given_sizes(shape) > 0) return thresholds::given_place_charge;
   return shape.place != PlaceShape::none ? thresholds::place_charge : thresholds::shape_charge;
@@ -220,10 +222,10 @@ void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c)
       readings.links.push_back(nowhere);
     }
     readings.first.push_back(readings.links.size());
-    c.refinement.proposed = [sweep = std::make_shared<const SegmentScan>(own, std::move(links), std::move(readings)),
-                             in_metres, first = c.design.grid[0]](inference::Tally& tally) {
-      return shaped_as(first, in_metres((*sweep)(tally)));
-    };
+    c.refinement.proposed =
+        [sweep = std::make_shared<const SegmentScan>(own, std::move(links), std::move(readings), geometry_.scale),
+         in_metres,
+         first = c.design.grid[0]](inference::Tally& tally) { return shaped_as(first, in_metres((*sweep)(tally))); };
   } else {
     // Maxima are narrow and close together.
     c.refinement.step.tail<3>() << 0.1 * geometry_.scale, 0.1 * geometry_.scale, 0.1;
