@@ -127,8 +127,6 @@ inline constexpr double both_ends_share = 0.05;
 // m; mean extent of an area, from which what stands in it is sought larger in proportion; chosen;
 // Outdoors.AWallIsFoundThatIsTenTimesAsLong
 inline constexpr double extent_of_a_building = 60;
-// m; longest wall that is sought as one; chosen; SpatialScan.FindsALongSegment
-inline constexpr double longest_wall = 40;
 // m; smallest radius of a hill or a wood, which can be driven through; chosen;
 // Outdoors.AWoodIsFoundThatWasDrivenThrough
 inline constexpr double smallest_wood = 2;

@@ -123,8 +123,7 @@ void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement
   if (places == 4) {
     out.lower.segment(3, 2) << 0.8 * scale, -4;
     const double across = std::hypot(geometry_.east.length(), geometry_.north.length());
-    const double longest_wall = std::max(scale * 9, thresholds::longest_wall);
-    out.upper.segment(3, 2) << (shape.is_strip() ? std::max(scale * 40, across) : longest_wall), 4;
+    out.upper.segment(3, 2) << (shape.is_strip() ? std::max(scale * 40, across) : scale * 9), 4;
     out.step.segment(3, 2) << scale * 0.8, 0.12;
   }
   if (const auto sizes = static_cast<Index>(given_sizes(shape)); sizes > 0)
@@ -222,10 +221,10 @@ void LinkCauseDomain::let_scan(const CauseShape& shape, inference::Candidate& c)
       readings.links.push_back(nowhere);
     }
     readings.first.push_back(readings.links.size());
-    c.refinement.proposed =
-        [sweep = std::make_shared<const SegmentScan>(own, std::move(links), std::move(readings), geometry_.scale),
-         in_metres,
-         first = c.design.grid[0]](inference::Tally& tally) { return shaped_as(first, in_metres((*sweep)(tally))); };
+    c.refinement.proposed = [sweep = std::make_shared<const SegmentScan>(own, std::move(links), std::move(readings)),
+                             in_metres, first = c.design.grid[0]](inference::Tally& tally) {
+      return shaped_as(first, in_metres((*sweep)(tally)));
+    };
   } else {
     // Maxima are narrow and close together.
     c.refinement.step.tail<3>() << 0.1 * geometry_.scale, 0.1 * geometry_.scale, 0.1;

@@ -15,13 +15,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double quarter_turn = 1.5707963267948966;
-constexpr double between_lines = 0.25, between_starts = 0.4, aside = 0.05;  // m
-// Pieces of these lengths, from starts so far apart: of long ones the start matters less.
-struct Pieces {
-  double shortest, longest, between_starts;  // m
-};
-constexpr Pieces short_ones{0.8, 6, 2 * between_starts}, long_ones{6, thresholds::longest_wall, 4};
-constexpr double shortest = short_ones.shortest;           // m
+constexpr double between_lines = 0.25, between_starts = 0.4, shortest = 0.8, longest = 6, aside = 0.05;  // m
 constexpr double most_lines = 500, most_places = 100'000;  // beyond these a scan of a large area is coarser
 constexpr std::size_t most = 400;                          // thetas
 
@@ -117,11 +111,8 @@ struct SegmentScan::Way {
   double at(double q) const { return p0 + (p1 - p0) * (q - q0) / (q1 - q0); }
 };
 
-SegmentScan::SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings, double unit)
-    : geometry_(survey),
-      longest_(std::max(short_ones.longest, long_ones.longest / unit)),
-      links_(std::move(links)),
-      readings_(std::move(readings)) {
+SegmentScan::SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings)
+    : geometry_(survey), links_(std::move(links)), readings_(std::move(readings)) {
   for (const double turn : {0.0, quarter_turn}) {
     for (const double slant : {-0.3, -0.15, 0.0, 0.15, 0.3}) {
       const double angle = survey.plan_angle + turn + slant;
@@ -192,23 +183,21 @@ std::vector<VectorXd> SegmentScan::operator()(inference::Tally& tally) const {
 }
 
 // Scores pieces from every other start to each crossing, up to the gap's end.
-SegmentScan::Piece SegmentScan::best_piece(const Gap& gap, double first, inference::Tally& tally) const {
+SegmentScan::Piece SegmentScan::best_piece(const Gap& gap, double first, inference::Tally& tally) {
   Piece best{0, 0, 0};
-  for (const Pieces& pieces : {short_ones, long_ones}) {
-    for (double start = first; start < gap.to - pieces.shortest; start += pieces.between_starts) {
-      const double end = std::min(gap.to, start + std::min(pieces.longest, longest_));
-      tally.clear();
-      auto next = std::lower_bound(gap.crossings.begin(), gap.crossings.end(), start,
-                                   [](const Crossing& c, double at) { return c.at < at; });
-      for (; next != gap.crossings.end() && next->at < end; ++next) {
-        tally.add(next->row, -1);
-        const auto after = next + 1;
-        const double until = after == gap.crossings.end() ? end : std::min(end, after->at);
-        if (until - start < pieces.shortest) continue;
-        const double gain = tally.gain() + gap.belief;
-        // The piece ends between this link, which it blocks, and the next, which passes.
-        if (gain > best.gain) best = {gain, start, std::max((next->at + until) / 2, start + shortest)};
-      }
+  for (double start = first; start < gap.to - shortest; start += 2 * between_starts) {
+    const double end = std::min(gap.to, start + longest);
+    tally.clear();
+    auto next = std::lower_bound(gap.crossings.begin(), gap.crossings.end(), start,
+                                 [](const Crossing& c, double at) { return c.at < at; });
+    for (; next != gap.crossings.end() && next->at < end; ++next) {
+      tally.add(next->row, -1);
+      const auto after = next + 1;
+      const double until = after == gap.crossings.end() ? end : std::min(end, after->at);
+      if (until - start < shortest) continue;
+      const double gain = tally.gain() + gap.belief;
+      // The piece ends between this link, which it blocks, and the next, which passes.
+      if (gain > best.gain) best = {gain, start, std::max((next->at + until) / 2, start + shortest)};
     }
   }
   return best;
@@ -226,7 +215,7 @@ Swept SegmentScan::climb(const Swept& from, inference::Tally& tally) const {
     return both;
   };
   const auto gain = [&](const VectorXd& t) {
-    if (t[3] < shortest || t[3] > longest_ || std::hypot(t[1] - x, t[2] - y) + t[3] / 2 > farthest) return 0.0;
+    if (t[3] < shortest || t[3] > longest || std::hypot(t[1] - x, t[2] - y) + t[3] / 2 > farthest) return 0.0;
     const double c = std::cos(t[4]), s = std::sin(t[4]), across = c * t[2] - s * t[1], along = c * t[1] + s * t[2];
     const auto stopped = [&](const std::array<double, 4>& ends) {
       const auto [x0, y0, x1, y1] = ends;

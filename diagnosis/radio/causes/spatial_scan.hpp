@@ -27,8 +27,7 @@ struct Swept {
 // driven across are scored by one link a row. The best are improved by a pattern search over all readings.
 class SegmentScan {
  public:
-  // `unit`: metres of which lengths are multiples.
-  SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings, double unit = 1);
+  SegmentScan(const MeasurementGeometry& survey, Links links, ReadingLinks readings);
 
   // Thetas (0 for the row, x, y, length, angle), the best first.
   std::vector<Eigen::VectorXd> operator()(inference::Tally& tally) const;
@@ -50,13 +49,12 @@ class SegmentScan {
 
   struct Way;
   void lay_out(const std::vector<Way>& links, const std::vector<Way>& driven, double angle, double across);
-  Piece best_piece(const Gap& gap, double first, inference::Tally& tally) const;
+  static Piece best_piece(const Gap& gap, double first, inference::Tally& tally);
   Swept climb(const Swept& from, inference::Tally& tally) const;
   template <class Stopped>
   double share(std::size_t row, const Stopped& stopped) const;
 
   MeasurementGeometry geometry_;
-  double longest_;  // units
   Links links_;
   ReadingLinks readings_;
   std::vector<Gap> gaps_;
