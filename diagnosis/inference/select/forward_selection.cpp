@@ -35,7 +35,7 @@ struct Blocked {
 noise::Fit fit_with(const ModelState& state, const ScoredCandidate& lead, const Eigen::MatrixXd& both) {
   const bool large = lead.columns.cols() > thresholds::large_width || lead.gain > thresholds::large_gain;
   noise::Fit fit = state.fitted(both, state.fit.covariance, large ? 14 : 6);
-  if (lead.candidate().role.slow && !lead.candidate().role.pieces.empty()) fit = or_weaker(state, both, fit);
+  if (lead.candidate().role.slow_place()) fit = or_weaker(state, both, fit);
   if (lead.gain <= thresholds::afresh_gain) return fit;
   const auto start = noise::default_start(state.y(), both, fit.covariance.family);
   const noise::Fit fresh = state.fitted(both, start, 20);

@@ -50,10 +50,7 @@ noise::Fit fit_with(const ModelState& state, const Candidate& candidate, const E
 
 // Of places that are slow, which the ladder has found under a field that holds less of them. Under the fitted field,
 // another place may gain more.
-bool is_of_ladder(const ScoredCandidate& lead) {
-  const Candidate& c = lead.candidate();
-  return c.role.slow && !c.role.pieces.empty() && lead.all.size() == 0;
-}
+bool is_of_ladder(const ScoredCandidate& lead) { return lead.candidate().role.slow_place() && lead.all.size() == 0; }
 
 // Upper bound of the gain after relocation. The earlier field holds a part of the place and biases its position: up
 // to two thirds of the gain, as far as observed. Where the refit at the biased position recovers little, so does

@@ -72,8 +72,7 @@ std::vector<ScoredCandidate> beyond_chance(ModelState& state, const WhitenedMode
   std::vector<ScoredCandidate> result;
   for (const Entry& entry : state.entries()) {
     const Candidate& c = *entry.candidate;
-    const bool is_slow = c.role.slow && c.role.pieces.empty();
-    if (!(is_slow || c.kind == Kind::smooth) || !usable(c)) continue;
+    if (!((c.role.slow && !c.role.slow_place()) || c.kind == Kind::smooth) || !usable(c)) continue;
     Index at = 0;
     const double gain = gains(c, unit_atoms(entry, model), model.at.residual).maxCoeff(&at);
     const double log_p = state.log_p(c, gain, c.design.width, false);

@@ -27,7 +27,8 @@ bool stands(const inference::Candidate& c) { return !c.role.pieces.empty(); }
 bool clear_of_ways(const CauseShape& shape, const MeasurementGeometry& geometry, const VectorXd& t) {
   if (shape.place == PlaceShape::segment) return driven_across(geometry, t[1], t[2], t[3], t[4]) == 0;
   const double radius = shape.axes.empty() ? 0.5 : std::exp(t[3]);
-  if (geometry.scale == 1 || radius < thresholds::smallest_wood) return !driven_through(geometry, t[1], t[2], radius);
+  if (!geometry.is_outdoors() || radius < thresholds::smallest_wood)
+    return !driven_through(geometry, t[1], t[2], radius);
   return std::none_of(geometry.standing.begin(), geometry.standing.end(), [&](const auto& at) {
     return std::hypot(at[0] - t[1], at[1] - t[2]) < thresholds::well_inside * radius;
   });
@@ -91,7 +92,7 @@ void LinkCauseDomain::hold(CauseShape& shape) const {
     // Hills and houses reach above all radios.
     const bool is_a_height = shape.place != PlaceShape::none && std::string_view(p.unit) == "m" &&
                              !(p.flags & (MUSTER_FREE | MUSTER_EAST | MUSTER_NORTH));
-    if (is_a_height && geometry_.scale > 1 && shape.cause.meaning().kind == MUSTER_TERM)
+    if (is_a_height && geometry_.is_outdoors() && shape.cause.meaning().kind == MUSTER_TERM)
       shape.held[p.name] = std::max(p.value, geometry_.height.high + 1);
     if ((p.flags & MUSTER_CYCLIC) && !(p.flags & MUSTER_FREE)) shape.held[p.name] = geometry_.plan_angle;
     if (std::string_view(p.unit) != "Hz") continue;
@@ -142,7 +143,7 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.role.slow = !time && !heading && !(placed && c.design.sign && decibels);
   c.role.level_like = shape.set().empty() && !placed && !time;
   if (placed && !c.role.slow) c.role.pieces = "place";
-  if (placed && geometry_.scale > 1) c.role.slow = true;  // a hill changes levels as slowly as a field does
+  if (placed && geometry_.is_outdoors()) c.role.slow = true;  // a hill changes levels as slowly as a field does
   std::tie(c.covariates, c.role.replaces) = covariates_of(shape);
   c.role.over_sites = c.own() == "map";
   if (!c.refinement.any()) return;
@@ -156,7 +157,7 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
 // five; standard error 0.4). It grows by half a nat for each searched parameter towards the tail, where decisions fall.
 double LinkCauseDomain::charge_of(const CauseShape& shape, const inference::Candidate& c) const {
   if (stands(c) && shape.place == PlaceShape::segment) return thresholds::wall_charge;
-  if (stands(c)) return thresholds::thing_charge + (geometry_.scale > 1 ? thresholds::outdoor_charge : 0);
+  if (stands(c)) return thresholds::thing_charge + (geometry_.is_outdoors() ? thresholds::outdoor_charge : 0);
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT) return 0;
   if (given_sizes(shape) > 0) return thresholds::given_place_charge;
   return shape.place != PlaceShape::none ? thresholds::place_charge : thresholds::shape_charge;

@@ -15,7 +15,7 @@ Axis length(const muster_param& p, const MeasurementGeometry& s, const CauseShap
   }
   const bool is_of_a_thing = p.max <= 10 || p.value < 1;
   // Hills and woods take up more of their area than things of a room do.
-  if (shape.place == PlaceShape::point && is_of_a_thing && u > 1)
+  if (shape.place == PlaceShape::point && is_of_a_thing && s.is_outdoors())
     return logarithmic(p, 0.15 * u, 15 * u, {0.45 * u, 0.8 * u, 2.5 * u, 5 * u, 10 * u}, 0.3);
   if (shape.place == PlaceShape::point && is_of_a_thing) return logarithmic(p, 0.15, 1.5, {0.45, 0.8}, 0.3);
   if (shape.place == PlaceShape::point) return logarithmic(p, 1.5, 15, {3, 6}, 0.2);

@@ -36,6 +36,8 @@ struct MeasurementGeometry {
   // By how much things are larger than in a building: one there, more where radios move over a mean extent of above 60
   // m.
   double scale = 1;
+
+  bool is_outdoors() const { return scale > 1; }
 };
 
 MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data);
