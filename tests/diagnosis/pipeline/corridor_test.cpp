@@ -5,9 +5,7 @@
 #include <string>
 
 #include "diagnosis/pipeline/diagnose.hpp"
-#include "diagnosis/radio/links/link_model.hpp"
-#include "tests/diagnosis/scratch.hpp"
-#include "tests/diagnosis/worlds.hpp"
+#include "tests/diagnosis/pipeline/drawn_log.hpp"
 #include "text/number.hpp"
 
 namespace muster::diagnosis {
@@ -34,17 +32,9 @@ TEST(Corridor, IsFoundWithoutWalls) {
         rows.push_back(print_real(t) + ',' + station + ',' + print_real(x) + ',' + print_real(y) + ",1");
     }
   }
-  const auto write = [&](const std::string& name, const std::string& column, const auto& level) {
-    std::ofstream out(scratch / name);
-    out << "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]" << column << '\n';
-    for (std::size_t i = 0; i < rows.size(); ++i) out << rows[i] << level(static_cast<Eigen::Index>(i)) << '\n';
-    return scratch / name;
-  };
-  const auto asked = write("asked.csv", "", [](Eigen::Index) { return ""; });
   const std::string hidden = "<effect.corridor x0=\"0\" y0=\"8\" x1=\"60\" y1=\"8\" width=\"2.4\" gain=\"0.9\"/>";
-  const Eigen::VectorXd drawn = LinkModel(world_with(scratch, "true.xml", hidden), asked, plugins).drawn();
-  const auto measured =
-      write("measured.csv", ",rssi[dBm]", [&](Eigen::Index i) { return ',' + print_real(std::round(drawn[i])); });
+  const auto measured = drawn_log(scratch, world_with(scratch, "true.xml", hidden),
+                                  "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]", rows, rows);
   const Diagnosis found = diagnose(world_with(scratch, "world.xml", ""), measured, plugins);
   ASSERT_EQ(found.causes.size(), 1u);
   const CauseEstimate& corridor = found.causes[0];

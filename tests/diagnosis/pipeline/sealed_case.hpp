@@ -6,10 +6,9 @@
 
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "tests/diagnosis/scratch.hpp"
+#include "tests/diagnosis/worlds.hpp"
 
 namespace muster::diagnosis {
-
-inline const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
 
 inline std::filesystem::path made_case(const Scratch& scratch, const std::string& wanted, int number) {
   const std::string name = std::to_string(number);

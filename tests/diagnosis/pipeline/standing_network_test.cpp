@@ -9,9 +9,9 @@
 #include <functional>
 
 #include "diagnosis/pipeline/diagnose.hpp"
-#include "diagnosis/radio/links/link_model.hpp"
 #include "diagnosis/report/words.hpp"
 #include "muster/random.hpp"
+#include "tests/diagnosis/pipeline/drawn_log.hpp"
 #include "tests/diagnosis/pipeline/flat.hpp"
 #include "text/number.hpp"
 
@@ -51,19 +51,9 @@ Diagnosis diagnosed(
       }
     }
   }
-  const auto write = [&](const std::string& name, const std::string& column, const auto& level) {
-    std::ofstream out(scratch / name);
-    out << ends << column << '\n';
-    for (std::size_t i = 0; i < rows.size(); ++i) out << rows[i] << level(static_cast<Eigen::Index>(i)) << '\n';
-    return scratch / name;
-  };
-  const auto asked = write("asked.csv", "", [](Eigen::Index) { return ""; });
-  const Eigen::VectorXd drawn = LinkModel(world(scratch, "true.xml", cause), asked, plugins).drawn();
   const Stream noise(key_of("readings of a network"));
-  const auto measured = write("measured.csv", ",rssi[dBm]", [&](Eigen::Index i) {
-    return ',' +
-           print_real(std::round(drawn[i] + noise.normal(static_cast<uint64_t>(i)) + off(static_cast<uint64_t>(i))));
-  });
+  const auto measured = drawn_log(scratch, world(scratch, "true.xml", cause), ends, rows, rows,
+                                  [&](std::size_t i) { return noise.normal(uint64_t{i}) + off(uint64_t{i}); });
   return diagnose(world(scratch, "world.xml", ""), measured, plugins);
 }
 
