@@ -89,9 +89,6 @@ inline constexpr double soft_field_share = 0.05;
 // share; of the field's variance kept for the second heat of a place; chosen; none
 inline constexpr double half_field_share = 0.4;
 
-// starts; of a slow place, beside those proposed for it; chosen; none
-inline constexpr int slow_starts = 4;
-
 // select: forward selection
 
 // readings; that carry half of a gain, fewer than which may be outliers; chosen; Search.NoFalseWallForAnOutlier

@@ -124,10 +124,6 @@ Optimum raced_to(const ModelState& state, const WhitenedModel& model, const Scor
         starts.push_back(std::move(theta));
     }
     starts.push_back(lead.theta);  // always: the grid may have met a narrow optimum
-    if (c.role.slow) {             // larger than those proposed
-      const WhitenedModel half = with_less_field(state, model, thresholds::half_field_share);
-      add_starts(c, gains_of(*lead.entry, half), thresholds::slow_starts, starts);
-    }
     const Optimum top = successive_halving(c, starts, {value, value, value});
     starts.resize(std::min(starts.size(), likely));
     return best_of(starts, top, Objective(state, model, c, Columns::exact));

@@ -35,7 +35,6 @@ struct Blocked {
 noise::Fit fit_with(const ModelState& state, const ScoredCandidate& lead, const Eigen::MatrixXd& both) {
   const bool large = lead.columns.cols() > thresholds::large_width || lead.gain > thresholds::large_gain;
   noise::Fit fit = state.fitted(both, state.fit.covariance, large ? 14 : 6);
-  if (lead.candidate().role.slow_place()) fit = or_weaker(state, both, fit);
   if (lead.gain <= thresholds::afresh_gain) return fit;
   const auto start = noise::default_start(state.y(), both, fit.covariance.family);
   const noise::Fit fresh = state.fitted(both, start, 20);
@@ -61,8 +60,7 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
       gain = std::min(gain, state.far().profile_gain(question, state.fit.covariance, families));
     }
   }
-  const bool wide = c.role.pieces.empty() || c.role.slow;
-  const bool over_the_plan = c.kind == Kind::smooth || (wide && state.problem().layout->sites_known());
+  const bool over_the_plan = c.kind == Kind::smooth || (c.role.pieces.empty() && state.problem().layout->sites_known());
   if (over_the_plan) gain /= thresholds::overdispersion;
   return state.log_p(c, gain, lead.columns.cols(), true);
 }

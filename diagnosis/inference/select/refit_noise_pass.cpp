@@ -45,12 +45,11 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
 noise::Fit fit_with(const ModelState& state, const Candidate& candidate, const Eigen::MatrixXd& both) {
   noise::Fit fit = state.fitted(both, state.fit.covariance, 6);
   if (!candidate.role.slow) return fit;
-  return or_weaker(state, both, fit);
+  noise::Covariance weaker = state.fit.covariance;  // a second start: shorter and weaker field
+  weaker.theta += noise::Theta(std::log(0.35), std::log(0.5), 0, 0);
+  const noise::Fit other = state.fitted(both, weaker, 12);
+  return other.value < fit.value - thresholds::second_start_nats ? other : fit;
 }
-
-// Of places that are slow, which the ladder has found under a field that holds less of them. Under the fitted field,
-// another place may gain more.
-bool is_of_ladder(const ScoredCandidate& lead) { return lead.candidate().role.slow_place() && lead.all.size() == 0; }
 
 // Upper bound of the gain after relocation. The earlier field holds a part of the place and biases its position: up
 // to two thirds of the gain, as far as observed. Where the refit at the biased position recovers little, so does
@@ -67,15 +66,13 @@ double most_once_fitted(double gain) { return thresholds::refit_at_least + thres
 ScoredCandidate looked_at(const ModelState& state, const WhitenedModel& model, const Eigen::MatrixXd& design,
                           ScoredCandidate lead, RememberedLeads& known) {
   const Candidate& c = lead.candidate();
-  const bool of_ladder = is_of_ladder(lead);
-  if (c.refinement.starts > 1 && !of_ladder)
+  if (c.refinement.starts > 1)
     lead = known.worked_out(lead, [&](const ScoredCandidate& from) { return refined(state, model, from, false); });
   lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
   if (state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold()) return lead;
   noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));
-  if (of_ladder) lead = refined(state, state.whitened_model(design, fit.covariance), lead, true);
   const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-  if (!of_ladder && c.refinement.starts > 1 &&
+  if (c.refinement.starts > 1 &&
       state.log_p(c, most_to_come(lead.gain, gain), c.design.width, true) < state.threshold()) {
     lead = refined(state, state.whitened_model(design, fit.covariance), lead, false);
     fit = state.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
@@ -87,13 +84,6 @@ ScoredCandidate looked_at(const ModelState& state, const WhitenedModel& model, c
 }
 
 }  // namespace
-
-noise::Fit or_weaker(const ModelState& state, const Eigen::MatrixXd& both, const noise::Fit& fit) {
-  noise::Covariance weaker = state.fit.covariance;
-  weaker.theta += noise::Theta(std::log(0.35), std::log(0.5), 0, 0);
-  const noise::Fit other = state.fitted(both, weaker, 12);
-  return other.value < fit.value - thresholds::second_start_nats ? other : fit;
-}
 
 std::vector<ScoredCandidate> refit_noise_pass(ModelState& state, const WhitenedModel& model,
                                               const std::vector<ScoredCandidate>& first,

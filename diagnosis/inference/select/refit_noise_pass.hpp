@@ -12,10 +12,6 @@ std::vector<ScoredCandidate> refit_noise_pass(ModelState& state, const WhitenedM
                                               const std::function<bool(const Candidate&)>& usable,
                                               RememberedRound& known);
 
-// The fit, or one from a second start, a shorter and weaker field, if that is clearly likelier. `both`: design and
-// columns.
-noise::Fit or_weaker(const ModelState& state, const Eigen::MatrixXd& both, const noise::Fit& fit);
-
 // Slow candidates over a ladder of shorter and weaker fields: the fitted field may hide an effect that it has
 // absorbed. Gains are of the profile likelihood.
 std::vector<ScoredCandidate> ladder(ModelState& state, const std::function<bool(const Candidate&)>& usable);

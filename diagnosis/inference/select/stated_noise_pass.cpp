@@ -66,13 +66,13 @@ bool stands_as_stated(const ModelState& state, const Eigen::MatrixXd& design, co
   return lead.log_p < threshold && draws_are_behind(state, both, behind);
 }
 
-// Significant slow candidates, the likeliest first; but for places, which need the trial that this pass goes without.
+// Significant slow candidates, the likeliest first.
 std::vector<ScoredCandidate> beyond_chance(ModelState& state, const WhitenedModel& model, double threshold,
                                            const std::function<bool(const Candidate&)>& usable) {
   std::vector<ScoredCandidate> result;
   for (const Entry& entry : state.entries()) {
     const Candidate& c = *entry.candidate;
-    if (!((c.role.slow && !c.role.slow_place()) || c.kind == Kind::smooth) || !usable(c)) continue;
+    if (!(c.role.slow || c.kind == Kind::smooth) || !usable(c)) continue;
     Index at = 0;
     const double gain = gains(c, unit_atoms(entry, model), model.at.residual).maxCoeff(&at);
     const double log_p = state.log_p(c, gain, c.design.width, false);

@@ -82,8 +82,6 @@ struct CandidateRole {
   bool observed = false;    // smooth of a column or factor of the data
   bool level_like = false;  // a function of the level: clipping imitates it
   int parameters = 1;       // of the cause: of two that the readings cannot separate, the one with fewer is preferred
-
-  bool slow_place() const { return slow && !pieces.empty(); }
 };
 
 struct Candidate {

@@ -143,7 +143,6 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.role.slow = !time && !heading && !(placed && c.design.sign && decibels);
   c.role.level_like = shape.set().empty() && !placed && !time;
   if (placed && !c.role.slow) c.role.pieces = "place";
-  if (placed && geometry_.is_outdoors()) c.role.slow = true;  // a hill changes levels as slowly as a field does
   std::tie(c.covariates, c.role.replaces) = covariates_of(shape);
   c.role.over_sites = c.own() == "map";
   if (!c.refinement.any()) return;
