@@ -14,8 +14,10 @@ struct ColumnShifted {
   static constexpr auto summary = "a column of the log, of names or of places, is some rows off";
   static constexpr auto manual =
       "Reads the column from the row `by` further on, for all rows that have one: a row bears what belongs to the row\n"
-      "`by` before it. `column` names: which radio that stands an end is, with its place. `column` places: where an\n"
-      "end that moves is. It is a fault of a list of readings (data.links): live links do not change.";
+      "`by` before it. Rows are all of the table, in its order: of all pairs, and of lost readings that have one.\n"
+      "`column` names: which radio that stands an end is, with its place. `column` places: where an end that\n"
+      "moves is. Senders take from senders, receivers from receivers, if both stand (names) or both move (places).\n"
+      "It is a fault of a list of readings (data.links): live links do not change.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       choice("column", "names|places", "which column").with(MUSTER_EACH),

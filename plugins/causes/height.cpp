@@ -11,7 +11,8 @@ struct Height {
   static constexpr auto id = "effect.height/1";
   static constexpr auto summary = "a floor between two radios costs";
   static constexpr auto manual =
-      "Takes away `loss` of every link with one end below the height z and the other at it or above.";
+      "Takes away `loss` of every link with one end below the height z and the other at it or above. All z between "
+      "the highest radio below and the lowest above do the same.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("z", 2.7, -1e4, 1e4, "m", "height of the floor").free(),

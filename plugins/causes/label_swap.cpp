@@ -13,7 +13,8 @@ struct LabelSwap {
   static constexpr auto summary = "two radios bear each other's name";
   static constexpr auto manual =
       "Puts radio a where b is, heading included, and b where a is. For radios that do not move: the place of a radio "
-      "is that of its first row among the ends of links. While one of the two has none, both stay where they are.";
+      "is that of its first row among the ends of links, whatever element lists it. While one of the two has none, "
+      "both stay where they are.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("a", "radio", "one of the two").required(),

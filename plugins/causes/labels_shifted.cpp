@@ -49,7 +49,9 @@ struct LabelsShifted {
       "the\n"
       "order of all. A radio that is in the list and never heard has its line, too. Nothing changes where `first` "
       "moves.\n"
-      "Radios that only the data name are in it, too: behind those of the world, in the order of the data.";
+      "Radios that only the data name are in it, too: behind those of the world, in the order of the data.\n"
+      "A radio stands if no robot carries it and all readings have it within 5 cm of its first place, in plan.\n"
+      "A station that moves in the data is not in the list.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("first", "radio", "which radio's place the first one has").required(),

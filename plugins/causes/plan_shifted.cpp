@@ -13,9 +13,9 @@ struct PlanShifted {
   static constexpr auto id = "effect.plan_shifted/1";
   static constexpr auto summary = "the stations, the robots' places or the walls are all listed some way off";
   static constexpr auto manual =
-      "Undoes that the listed places are the true ones moved by (east, north). `of` stations: of radios that stand.\n"
-      "`of` robots: of all others. `of` walls: the walls are moved, so all radios are put where they are in the\n"
-      "walls' own coordinates.";
+      "Undoes that the listed places are the true ones moved by (east, north). `of` stations: of radios that stand,\n"
+      "as in effect.labels_shifted. `of` robots: of all others. `of` walls: the walls are moved, so all radios are\n"
+      "put where they are in the walls' own coordinates.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       choice("of", "stations|robots|walls", "what is listed wrongly").with(MUSTER_EACH),

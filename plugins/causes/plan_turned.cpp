@@ -25,7 +25,8 @@ struct PlanTurned {
       "and south (mirrored_y), turned counter-clockwise by so many degrees, or x and y exchanged (transposed; about "
       "the\n"
       "other diagonal: transposed_back). `of` stations: of radios that stand. `of` robots: of all others. `of` walls:\n"
-      "the walls are turned, so all radios are put where they are in the walls' own coordinates. Headings turn too.";
+      "the walls are turned, so all radios are put where they are in the walls' own coordinates. Headings turn too.\n"
+      "y changes nothing of mirrored_x, x nothing of mirrored_y.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       choice("of", "stations|robots|walls", "what is listed wrongly").with(MUSTER_EACH),

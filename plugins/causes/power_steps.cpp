@@ -26,7 +26,8 @@ struct PowerSteps {
       "more than six powers, `error1` is that of the lowest, `error6` that of the highest, the others those of powers "
       "evenly between, and errors change linearly from one to the next. Readings that the world is held against, and "
       "whose powers stand in for the file's, are to have the same ones. Data in which each reading was referred to its "
-      "nominal power need nothing else.";
+      "nominal power need nothing else. What all errors share is in l0: a diagnosis leaves that of the power with most "
+      "readings at 0.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {

@@ -12,7 +12,7 @@ struct RssiFloor {
   static constexpr auto summary = "below a level the receiver reports nothing, or its lowest code";
   static constexpr auto manual =
       "A reading below `level` is lost, as if not received; without `silent` it comes out as `level`. Expectations "
-      "stay as they are: a fit takes what is missing or piled up as upper bounds.";
+      "stay as they are: a fit takes what is missing as upper bounds, a diagnosis also what is piled up.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("level", -250, -250, 50, "dBm", "lowest reading").free(),

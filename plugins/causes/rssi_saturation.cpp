@@ -13,7 +13,7 @@ struct RssiSaturation {
   static constexpr auto summary = "the receiver reads nothing above a level";
   static constexpr auto manual =
       "A reading above `level` comes out as `level`. Expectations stay as they are: a fit takes readings at the "
-      "ceiling as lower bounds.";
+      "ceiling as levels, a diagnosis as lower bounds.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("level", 50, -150, 50, "dBm", "highest reading").free(),

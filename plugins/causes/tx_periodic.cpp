@@ -13,7 +13,7 @@ struct TxPeriodic {
   static constexpr auto summary = "what a radio sends swings with a period";
   static constexpr auto manual =
       "Adds amplitude x cos(2 pi t / period - phase). On what `radio` sends alone: a supply or an amplifier that "
-      "changes.";
+      "changes. Of a radio that only sends it is a periodic: the readings are the same.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),

@@ -11,7 +11,8 @@ struct TxStep {
   static constexpr auto id = "effect.tx_step/1";
   static constexpr auto summary = "what a radio sends jumps at some time";
   static constexpr auto manual =
-      "Adds `size` from the time `at` on. On what `radio` sends alone: a supply or an amplifier that changes.";
+      "Adds `size` from the time `at` on. On what `radio` sends alone: a supply or an amplifier that changes. Of a "
+      "radio that only sends it is a step: the readings are the same.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),

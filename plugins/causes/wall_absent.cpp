@@ -12,8 +12,8 @@ struct WallAbsent {
   static constexpr auto id = "effect.wall_absent/1";
   static constexpr auto summary = "a wall that the map has is not there, or not all of it";
   static constexpr auto manual =
-      "Gives back `share` of what each crossing of `wall` costs, closed doors in it included: 1 where nothing is left "
-      "of it.";
+      "Gives back `share` of what each crossing of `wall` costs, closed doors in it included at their own loss: 1 "
+      "where nothing is left of it.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {

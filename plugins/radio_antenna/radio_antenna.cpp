@@ -36,8 +36,9 @@ is its z axis, upright on the radio; azimuth, elevation and roll turn it.
     cosine      power as cos^n off the lobe, with half of it at beamwidth/2
     sector      3GPP TR 36.814: 12 (angle/beamwidth)^2 dB less in azimuth and, by beamwidth_up, in elevation
     table       azimuth[rad],elevation[rad],gain[dBi] from `file`, on a grid over the whole sphere
-All that an antenna is fed it radiates, but for `loss`: a narrower lobe is a stronger one, and of a table the
-mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the body.)";
+All that an antenna is fed it radiates, but for `loss`, what `depth` leaves beside the lobe included: a narrower lobe
+is a stronger one, and of a table the mean gain is at most 0 dBi. Polarisation does not count, nor a coupling to the
+body.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {

@@ -23,11 +23,15 @@ struct RadioFading {
   static constexpr auto summary = "shadowing that belongs to the place, and Rayleigh or Rician fading";
   static constexpr auto manual =
       R"(level@shadowing: a link's share of a random loss field over the environment, normal in dB. Its sd grows with the
-link's length d: shadowing x sqrt(1 - (1 - exp(-d/D)) D/d), D = decorrelation (Agrawal and Patwari 2009).
+link's length d: shadowing x sqrt(1 - (1 - exp(-d/D)) D/d), D = decorrelation (Agrawal and Patwari 2009). Two
+links, of lengths d1 and d2, have the covariance shadowing^2 / (2 D sqrt(d1 d2)) x the double integral of exp(-r/D)
+along both. r is the distance between points of the one and of the other, in three dimensions.
 fading: linear power gain of mean 1, from waves that all radios share (Clarke 1968). It changes over half a
-wavelength, not with time. With `per_reading`, every reading draws its own instead.
-Both are the same both ways and depend on seed and place alone. Asked for expectations, shadowing is 0 and fading is
-the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
+wavelength, not with time. Both are the same both ways and depend on seed and place alone.
+With `per_reading` fading is drawn for each two radios, their places and their time. Both ways share a draw if their
+times are equal, and not if these differ at all. A diagnosis pairs both ways up to 20 ms apart, if they scatter alike.
+Asked for expectations, shadowing is 0 and fading is the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh
+fading, -0.956 dB for a K of 6 dB.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation of links much longer than the decorrelation distance"),
@@ -37,7 +41,8 @@ the gain whose dB is the mean of its dB: -2.507 dB under Rayleigh fading.)";
       real("rician_k", -40, -40, 60, "dB",
            "steady over diffuse power; at -40 Rayleigh fading exactly; only with fading"),
       real("frequency", 2.44e9, 1e6, 1e12, "Hz", "carrier, for the wavelength of fading; only with fading"),
-      flag("per_reading", false, "fading drawn for each radio, time and place anew, white in space; only with fading"),
+      flag("per_reading", false,
+           "fading drawn for each two radios, places and times anew, white in space; only with fading"),
   };
 
   static void covariance(const double* params, const double* ends, const uint32_t* a, const uint32_t* b, uint32_t count,

@@ -17,8 +17,9 @@ struct RadioGudmundson {
       R"(Normal in dB with standard deviation `shadowing` at any length, correlated as exp(-a/D) exp(-b/D) when one end
 of a link moves by a and the other by b, D = decorrelation. The same both ways and on return; a function of seed
 and places. For comparison: it gives radios side by side the whole shadowing, and links that cross none in
-common, where radio.fading has what lies on the way. With radio.fading shadowing="0" beside it, that one's
-fading. Asked for expectations it is 0.)";
+common, where radio.fading has what lies on the way. Of two links with lengths d1 and d2 both pairings of their ends
+count: (p + q) / sqrt((1 + exp(-2 d1/D)) (1 + exp(-2 d2/D))), p and q being that product for each. With radio.fading
+shadowing="0" beside it, that one's fading. Asked for expectations it is 0.)";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("shadowing", 4, 0, 30, "dB", "standard deviation"),

@@ -13,7 +13,8 @@ struct RadioRssiSteps {
   static constexpr auto manual =
       "A reading comes out as the nearest multiple of `step`, at least `least` and at most `most`; what was not\n"
       "received stays so. By default 1 dB in 8 bits, as chips for IEEE 802.15.4, 802.11 and Bluetooth have it.\n"
-      "Expectations stay as they are.";
+      "Expectations stay as they are. To a fit, readings at `least` and `most` are levels as all others are;\n"
+      "a diagnosis takes those that pile up there as bounds (docs/reference/table_format.md).";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("step", 1, 0.001, 50, "dB", "between two codes"),

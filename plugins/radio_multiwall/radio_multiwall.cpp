@@ -14,6 +14,7 @@ struct RadioMultiwall {
   static constexpr auto manual =
       "level@distance = tx_power - l0 - 10 n log10(d), d in metres and at least 0.01;\n"
       "level@walls    = - sum over materials of (walls and floors crossed) x material/NAME/loss.\n"
+      "l0 is of the mean power beside fading, else of the mean dB (docs/explanation/fit_method.md).\n"
       "Crossings are exact, in three dimensions, and the same both ways; a closed door counts as its material, an "
       "open\n"
       "one as nothing. Thickness and angle of incidence do not change a wall's loss.\n"
