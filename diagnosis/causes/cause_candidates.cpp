@@ -135,6 +135,8 @@ struct CandidateBuilder {
     c.design.whole = shape.linear.empty() && (edit || shape.axes.empty());
     c.design.sign = shape.linear.empty() || (c.design.width == 1 && shape.linear[0]->min == 0) ? 1 : 0;
     c.role.parameters = static_cast<int>(shape.cause.plugin->param_count + shape.axes.size());
+    // What an instrument makes of its readings is asked for where no law of what it measures does as well.
+    if (shape.cause.meaning().kind == MUSTER_STAGE) ++c.role.parameters;
   }
 
   static void label(const std::shared_ptr<const CauseShape>& shape, inference::Candidate& c) {

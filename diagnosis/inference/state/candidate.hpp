@@ -81,7 +81,9 @@ struct CandidateRole {
   bool time_like = false;   // a function of time: an observed column that explains as much is preferred
   bool observed = false;    // smooth of a column or factor of the data
   bool level_like = false;  // a function of the level: clipping imitates it
-  int parameters = 1;       // of the cause: of two that the readings cannot separate, the one with fewer is preferred
+  // Of the cause, and one more of an instrument's: of two that the readings cannot separate, the one with fewer is
+  // preferred.
+  int parameters = 1;
 };
 
 struct Candidate {
