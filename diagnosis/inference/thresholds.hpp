@@ -91,6 +91,9 @@ inline constexpr double half_field_share = 0.4;
 
 // select: forward selection
 
+// sites; of a standing network beyond the numbers of its model, from which the fitted noise knows how levels differ;
+// chosen; StandingSites.FewLevelsAreHeldToAnFTest
+inline constexpr std::ptrdiff_t few_levels = 20;
 // readings; that carry half of a gain, fewer than which may be outliers; chosen; Search.NoFalseWallForAnOutlier
 inline constexpr double few_readings = 5;
 // rows; that win most, without which a cause must still win: an outlier is in its neighbours' whitened rows, too;

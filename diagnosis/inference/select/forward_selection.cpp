@@ -15,6 +15,7 @@
 #include "diagnosis/inference/select/merge_duplicates.hpp"
 #include "diagnosis/inference/select/refit_noise_pass.hpp"
 #include "diagnosis/inference/select/relocate.hpp"
+#include "diagnosis/inference/select/site_levels.hpp"
 #include "diagnosis/inference/select/stated_noise_pass.hpp"
 #include "diagnosis/inference/select/stays.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
@@ -65,53 +66,15 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
   return state.log_p(c, gain, lead.columns.cols(), true);
 }
 
-// Numbers fitted for a candidate: its strengths, and where it is.
-Index numbers_of(const Candidate& c) { return c.design.width + (c.refinement.step.array() != 0).count(); }
-
-// True if nearly all rows recur at a few sites.
-bool stands(const ModelState& state) { return state.field().recurring().share() >= thresholds::standing_share; }
-
-// Levels that a network has to fit: one a site, and, where the columns differ between a site's streams, one more of
-// each site whose streams were measured together (rows of half differences, which share no field). None where the
-// columns vary within a site.
-std::optional<Index> levels_of(const ModelState& state, const Eigen::MatrixXd& columns) {
-  const noise::Sites& sites = state.field().sites();
-  const double small = 1e-6 * columns.cwiseAbs().maxCoeff();
-  Index levels = 0;
-  std::set<noise::SiteKey> differing;
-  bool differs = false;
-  for (const std::vector<Index>& rows : state.field().recurring().sites()) {
-    const Index first = rows.front();
-    if (sites.is_alone(first)) {
-      differing.insert(noise::site_key(sites, first));
-      differs = differs || columns.row(first).cwiseAbs().maxCoeff() > small;
-      continue;
-    }
-    ++levels;
-    for (const Index row : rows)
-      if ((columns.row(row) - columns.row(first)).cwiseAbs().maxCoeff() > small) return {};
-  }
-  return levels + (differs ? static_cast<Index>(differing.size()) : 0);
-}
-
-// True if nearly all rows recur at a few sites, which the model would then fit one by one: each site has one level,
-// however often it is measured, and a term that is alike in all rows of a site needs as many of them left as it has
-// numbers.
-bool fits_each_site(const ModelState& state, const ScoredCandidate& lead) {
-  if (!stands(state)) return false;
-  const std::optional<Index> levels = levels_of(state, lead.columns);
-  if (!levels) return false;
-  Index left = *levels - state.base().cols() - numbers_of(lead.candidate());
-  for (const Term& term : state.terms) left -= numbers_of(*term.candidate);
-  return left < numbers_of(lead.candidate());
-}
-
 // Tests a lead for significance over the uncertain covariance, for support by one group alone, and for clipping.
 Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
             const Eigen::MatrixXd& design) {
   const Candidate& c = lead.candidate();
   const WhitenedModel model = state.whitened_model(design, fit.covariance);
-  Trial trial{c.id, c.label_of(lead.theta), gain_of(c, model, lead.columns), 0, 0, false, "", 1};
+  Trial trial;
+  trial.id = c.id;
+  trial.label = c.label_of(lead.theta);
+  trial.gain = gain_of(c, model, lead.columns);
   trial.log_p = state.log_p(c, trial.gain, lead.columns.cols(), true);
   trial.marginal_log_p = trial.log_p;
   const double skew = model.skew_charge(lead.columns), tests = log_tests(state, c);
@@ -131,7 +94,7 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
     inflate(bulk_inflation(state, state.whitened_model(both, fit.covariance), c, lead.columns));
   // Of the noise beside the lead: without it the field holds the lead, too. Where a network stands, few sites decide,
   // and a place has numbers enough to take the field of the best-fitting ones with it.
-  const noise::Covariance& beside = stands(state) ? state.fit.covariance : fit.covariance;
+  const noise::Covariance& beside = is_standing(state) ? state.fit.covariance : fit.covariance;
   for (const noise::StatedField& field : state.drawable(beside)) {
     if (log_p <= state.threshold() && resembles_draws(state, both, field))
       inflate(drawn_inflation(state, model, c, field));
@@ -153,6 +116,8 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
     trial.reason = "rests on fewer than five readings";
   else if (c.kind == Kind::named && fits_each_site(state, lead))
     trial.reason = "has more numbers than the sites of the network leave";
+  else if (is_chance_of_sites(state, c, lead.columns, design))
+    trial.reason = "is not beyond how the sites of the network differ by chance";
   else if (trial.of_stays = is_chance_of_stays(state, c, lead.columns, design); trial.of_stays)
     trial.reason = chance_of_stays;
   trial.accepted = trial.reason.empty();

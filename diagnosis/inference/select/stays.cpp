@@ -1,12 +1,9 @@
 #include "diagnosis/inference/select/stays.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <cmath>
 
-#include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
+#include "diagnosis/inference/select/f_test.hpp"
 #include "diagnosis/inference/state/smooths.hpp"
 #include "diagnosis/inference/thresholds.hpp"
 
@@ -80,17 +77,6 @@ bool are_between(const Stays& stays, const Eigen::MatrixXd& columns) {
   return stays.any() && stays.share_within(columns) <= thresholds::within_stays;
 }
 
-struct LeastSquares {
-  Index rank = 0;
-  double squares = 0;  // left
-};
-
-LeastSquares least_squares(const Eigen::MatrixXd& design, const Eigen::VectorXd& y) {
-  if (design.cols() == 0) return {0, y.squaredNorm()};
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
-  return {qr.rank(), (y - design * qr.solve(y)).squaredNorm()};
-}
-
 }  // namespace
 
 StayScatter scatter_of_stays(const ModelState& state, const Eigen::MatrixXd& design) {
@@ -112,15 +98,8 @@ bool is_chance_of_stays(const ModelState& state, const Candidate& candidate, con
   if (!in_time(candidate)) return false;
   const Stays stays(state);
   if (!are_between(stays, columns)) return false;
-  const Eigen::VectorXd y = stays.mean(state.y());
-  const auto [rank, squares] = least_squares(stays.mean(design), y);
-  const auto [more, left] = least_squares(stays.mean(noise::hstack(design, columns)), y);
-  const Index numbers = more - rank, freedom = stays.count() - more;
-  if (numbers <= 0 || freedom <= 0) return true;  // it fits each stay
-  const auto k = static_cast<double>(numbers), n = static_cast<double>(freedom);
-  const double f = std::max(0.0, squares - left) / k / (left / n);
-  const double p = boost::math::cdf(boost::math::complement(boost::math::fisher_f(k, n), f));
-  return std::log(std::max(p, 1e-300)) + log_tests(state, candidate) > state.threshold();
+  return log_p_of_f_test(stays.mean(design), stays.mean(columns), stays.mean(state.y())) + log_tests(state, candidate) >
+         state.threshold();
 }
 
 }  // namespace muster::inference
