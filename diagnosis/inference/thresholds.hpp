@@ -94,6 +94,12 @@ inline constexpr double half_field_share = 0.4;
 // sites; of a standing network beyond the numbers of its model, from which the fitted noise knows how levels differ;
 // chosen; StandingSites.FewLevelsAreHeldToAnFTest
 inline constexpr std::ptrdiff_t few_levels = 20;
+// standard errors; from what all others let expect, beyond which a row that misleads a place is set aside; chosen;
+// Outdoors.AHillIsFoundBesideStrayReadings
+inline constexpr double outlying_errors = 5;
+// times; that rows are set aside in one search; chosen; none
+inline constexpr int most_set_aside = 6;
+
 // readings; that carry half of a gain, fewer than which may be outliers; chosen; Search.NoFalseWallForAnOutlier
 inline constexpr double few_readings = 5;
 // rows; that win most, without which a cause must still win: an outlier is in its neighbours' whitened rows, too;

@@ -159,6 +159,12 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
         "heard are the stronger ones, so weak levels look too high and the exponent too low",
         100 * m.bins.front().missing / m.bins.front().rows, m.bins.front().level,
         100 * m.bins.back().missing / m.bins.back().rows, m.bins.back().level));
+  if (result.aside > 0)
+    out.notes.push_back(
+        fmt::format("{} readings, each five standard errors or more from what all others let expect, were set aside "
+                    "while structure "
+                    "was sought: every wall and every thing would have been drawn to them",
+                    result.aside));
   for (const std::string& blind : setup_.fitted.not_identifiable) out.notes.push_back("not identifiable: " + blind);
   out.residual_sd = setup_.fitted.residual_sd;
   out.noise = result.noise.covariance;

@@ -52,6 +52,7 @@ struct Result {
   std::vector<Stair> stairs;  // the base model, then with each accepted finding in turn; empty: too few blocks
   std::vector<Check> checks;
   std::optional<StayScatter> stays;  // where something in time was not named for how they scatter
+  Index aside = 0;                   // readings that were set aside while structure was sought
 };
 
 }  // namespace muster::inference

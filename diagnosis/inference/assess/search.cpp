@@ -64,6 +64,11 @@ Result Search::run() {
   result_.mean = design * coefficients;
   add_held_out_gains(state_, folds_, result_);
   check_what_is_left(result_, model);
+  result_.aside = state_.take_back_all();
+  if (result_.aside > 0) {  // strays are part of the scatter, and may be outliers by its law
+    state_.refit();
+    result_.noise = state_.fit;
+  }
   const bool of_stays =
       std::any_of(result_.trials.begin(), result_.trials.end(), [](const Trial& t) { return t.of_stays; });
   const StayScatter stays = of_stays ? scatter_of_stays(state_, design) : StayScatter();

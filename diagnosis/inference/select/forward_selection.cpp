@@ -25,10 +25,12 @@ namespace muster::inference {
 namespace {
 
 constexpr const char* like_clipping = "cannot be told from clipping";
+constexpr const char* few_readings = "rests on fewer than five readings";
 
 struct Blocked {
   std::set<std::string> now;       // until the model changes
   std::set<std::string> for_good;  // indistinguishable from clipping
+  int aside = 0;                   // times that readings were set aside, after which a cause was tried again
 };
 
 // Fits the noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be a
@@ -106,14 +108,15 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
   const GainByRow gains_by_row = gain_by_row(model, lead.columns);
   if (!c.role.pieces.empty() && share_of_others(state, gains_by_row.won) < thresholds::share_of_others)
     trial.marginal_log_p += state.options().one_group_charge;
+  trial.of_outlier = trial.log_p <= state.threshold() && of_outlier(state, lead, model, fit.covariance, gains_by_row);
   if (c.role.level_like && state.problem().bounds.any() &&
       !separable_from_clipping(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
   else if (trial.marginal_log_p > state.threshold())
     trial.reason = trial.log_p > state.threshold() ? "not beyond chance"
                                                    : "not beyond chance under another noise that fits as well";
-  else if (of_outlier(state, lead, model, fit.covariance, gains_by_row))
-    trial.reason = "rests on fewer than five readings";
+  else if (trial.of_outlier)
+    trial.reason = few_readings;
   else if (c.kind == Kind::named && fits_each_site(state, lead))
     trial.reason = "has more numbers than the sites of the network leave";
   else if (is_chance_of_sites(state, c, lead.columns, design))
@@ -175,6 +178,18 @@ void settle_at_their_edges(ModelState& state) {
   }
 }
 
+// Sets aside the readings that alone drew a lead to its place, which may hide another place. False if there are none.
+bool without_its_outliers(ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
+                          const Eigen::MatrixXd& design) {
+  if (state.problem().bounds.changes()) return false;  // readings are imputed anew all the time
+  const WhitenedModel model = state.whitened_model(design, fit.covariance);
+  const std::vector<Index> rows = outliers_among(state, model, gain_by_row(model, lead.columns));
+  if (rows.empty()) return false;
+  state.set_aside(rows, model);
+  state.refit();
+  return true;
+}
+
 // Tests and adds a lead. False if it fails.
 bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vector<Trial>& trials) {
   const bool place = !lead.candidate().role.pieces.empty();
@@ -184,10 +199,18 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   const Eigen::MatrixXd design = state.design();
   const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
   trials.push_back(tried(state, lead, fit, design));
-  const Trial& trial = trials.back();
+  Trial& trial = trials.back();
   if (!trial.accepted) {
-    blocked.now.insert(trial.id);
     if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
+    const bool again = trial.of_outlier && trial.reason != like_clipping &&
+                       blocked.aside < thresholds::most_set_aside && without_its_outliers(state, lead, fit, design);
+    if (again) {
+      trial.reason = few_readings + std::string(", without which the search went on");
+      ++blocked.aside;
+      blocked.now = blocked.for_good;
+    } else {
+      blocked.now.insert(trial.id);
+    }
     return false;
   }
   const double before = state.fit.value;
@@ -318,10 +341,13 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
       continue;
     }
     const Index rows = state.rows().size();
+    const int aside = blocked.aside;
     const bool entered =
         enter(state, compared(state, model, passing, all, may_enter, known.refined).front(), blocked, trials);
-    // A lead that fails leaves the model as it was, unless rows were split for it. Censored readings are imputed anew.
-    if (entered || state.rows().size() != rows || state.problem().bounds.any()) scored.reset();
+    // A lead that fails leaves the model as it was, unless rows were split for it or readings set aside. Censored
+    // readings are imputed anew.
+    const bool renewed = state.rows().size() != rows || blocked.aside != aside;
+    if (entered || renewed || state.problem().bounds.any()) scored.reset();
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/thresholds.hpp"
@@ -32,9 +33,7 @@ bool from_few(const ModelState& state, const Eigen::VectorXd& won, const std::ve
 // Gain without these rows.
 double gain_without(const ModelState& state, const WhitenedModel& model, const noise::Covariance& covariance,
                     const Eigen::MatrixXd& columns, const std::vector<Index>& rows) {
-  Eigen::MatrixXd left_out = Eigen::MatrixXd::Zero(state.rows().size(), static_cast<Index>(rows.size()));
-  for (std::size_t k = 0; k < rows.size(); ++k) left_out(rows[k], static_cast<Index>(k)) = 1;
-  return state.whitened_model(noise::hstack(model.design, left_out), covariance).gain(columns);
+  return state.whitened_model(noise::hstack(model.design, state.units_of(rows)), covariance).gain(columns);
 }
 
 }  // namespace
@@ -66,6 +65,33 @@ bool of_outlier(const ModelState& state, const ScoredCandidate& lead, const Whit
     return false;
   rows.resize(std::min(rows.size(), thresholds::rows_of_an_outlier));
   return is_chance(gain_without(state, model, covariance, lead.columns, rows));
+}
+
+std::vector<Index> outliers_among(const ModelState& state, const WhitenedModel& model, const GainByRow& gains_by_row) {
+  std::set<Index> rows;
+  for (const Eigen::VectorXd& large : {gains_by_row.won, Eigen::VectorXd(model.at.residual.cwiseAbs())}) {
+    std::vector<Index> most = by_gain(large);
+    most.resize(std::min(most.size(), thresholds::rows_of_an_outlier));
+    rows.insert(most.begin(), most.end());
+  }
+  std::vector<Index> result;
+  double readings = 0;
+  for (WhitenedModel without = model;;) {
+    double most = thresholds::outlying_errors * thresholds::outlying_errors;
+    auto farthest = rows.end();
+    for (auto row = rows.begin(); row != rows.end(); ++row) {
+      const double off = without.gain(state.units_of({*row}));
+      if (off <= most) continue;
+      most = off;
+      farthest = row;
+    }
+    if (farthest == rows.end()) return result;
+    readings += state.rows().count()[*farthest];
+    if (readings >= thresholds::few_readings) return result;
+    result.push_back(*farthest);
+    rows.erase(farthest);
+    without = state.whitened_model(noise::hstack(model.design, state.units_of(result)), model.whitener.covariance());
+  }
 }
 
 }  // namespace muster::inference

@@ -22,4 +22,8 @@ double share_of_others(const ModelState& state, const Eigen::VectorXd& won);
 bool of_outlier(const ModelState& state, const ScoredCandidate& lead, const WhitenedModel& model,
                 const noise::Covariance& covariance, const GainByRow& gains_by_row);
 
+// Of the rows that won most and of those that the model, which is without its columns, leaves farthest off: rows that
+// are not what all others let expect, the farthest first. Fewer than five readings; may be empty.
+std::vector<Index> outliers_among(const ModelState& state, const WhitenedModel& model, const GainByRow& gains_by_row);
+
 }  // namespace muster::inference

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/noise/exact_covariance.hpp"
 #include "diagnosis/inference/noise/over_time.hpp"
 #include "diagnosis/inference/state/null_calibration.hpp"
@@ -182,7 +183,34 @@ Eigen::VectorXd ModelState::mean_of_readings() const {
 void ModelState::impute(int rounds) {
   measured_ = noise::imputed(problem_.measured, problem_.bounds,
                              problem_.bounds.changes() ? design_of_readings() : problem_.base, rounds);
+  if (aside_.size() > 0) measured_ -= aside_;
   y_ = rows_.mean(measured_);
+}
+
+Eigen::MatrixXd ModelState::units_of(const std::vector<Index>& rows) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) result(rows[k], static_cast<Index>(k)) = 1;
+  return result;
+}
+
+void ModelState::set_aside(const std::vector<Index>& rows, const WhitenedModel& model) {
+  const Eigen::MatrixXd units = units_of(rows);
+  const WhitenedModel without = whitened_model(noise::hstack(model.design, units), model.whitener.covariance());
+  const Eigen::VectorXd off =
+      rows_.at_readings(units * without.coefficients(model.design.cols() + units.cols()).tail(units.cols()));
+  if (aside_.size() == 0) aside_ = Eigen::VectorXd::Zero(off.size());
+  aside_ += off;
+  measured_ -= off;
+  y_ = rows_.mean(measured_);
+}
+
+Index ModelState::take_back_all() {
+  if (aside_.size() == 0) return 0;
+  const Index count = (aside_.array() != 0).count();
+  measured_ += aside_;
+  aside_.resize(0);
+  y_ = rows_.mean(measured_);
+  return count;
 }
 
 Eigen::MatrixXd ModelState::design(const std::function<bool(const Term&)>& left_out) const {

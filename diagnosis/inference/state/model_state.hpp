@@ -97,6 +97,12 @@ class ModelState {
   Eigen::VectorXd mean_of_readings() const;
   // Imputes censored readings anew from the current model.
   void impute(int rounds);
+  // Has rows count as what all others let expect of them. `model`: the present one, without them.
+  void set_aside(const std::vector<Index>& rows, const WhitenedModel& model);
+  // Has all count as measured again. Returns how many readings had been set aside.
+  Index take_back_all();
+  // Columns that are 1 at one of these rows each, which leave nothing of it to any other column.
+  Eigen::MatrixXd units_of(const std::vector<Index>& rows) const;
 
   // Base columns and terms, without the terms selected by `left_out`.
   Eigen::MatrixXd design(const std::function<bool(const Term&)>& left_out = {}) const;
@@ -154,6 +160,7 @@ class ModelState {
   mutable std::deque<noise::Whitener> whiteners_;     // of the last models: most are whitened at one covariance
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
+  Eigen::VectorXd aside_;  // by which readings that were set aside are off; empty: none was
   std::vector<Entry> entries_;
   std::size_t fixed_ = 0;  // entries before those that depend on the model
   noise::Sheet normals_;
