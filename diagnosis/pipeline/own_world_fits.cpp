@@ -7,10 +7,12 @@
 #include <map>
 #include <utility>
 
+#include "diagnosis/inference/noise/over_time.hpp"
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/measurement_geometry.hpp"
 #include "diagnosis/radio/thresholds.hpp"
+#include "muster/random.hpp"
 
 namespace muster::diagnosis {
 
@@ -59,8 +61,8 @@ VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) 
   return result;
 }
 
-OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup)
-    : s_(setup), moved_(setup.model), scale_(measurement_geometry(setup.model, setup.data).scale) {
+OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit)
+    : s_(setup), moved_(setup.model), scale_(scale_of(setup.model)), time_unit_(time_unit) {
   const ObservedLevels levels = observed_levels(s_.data, s_.receiver, s_.fitted.readings, s_.used.rows);
   std::vector<Index> known;
   for (std::size_t i = 0; i < s_.used.rows.size(); ++i) {
@@ -68,7 +70,9 @@ OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup)
       known.push_back(static_cast<Index>(i));
   }
   const std::size_t every = std::max<std::size_t>(1, known.size() / thresholds::own_world_readings);
-  for (std::size_t i = 0; i < known.size(); i += every) {
+  const Stream any(key_of("readings of own worlds"));  // each so manieth would be of one link where links take turns
+  for (std::size_t first = 0; first + every <= known.size(); first += every) {
+    const std::size_t i = first + static_cast<std::size_t>(any.uniform(first) * static_cast<double>(every));
     kept_.push_back(s_.used.rows[static_cast<std::size_t>(known[i])]);
     of_used_.push_back(known[i]);
   }
@@ -191,7 +195,9 @@ const RowsOfWorld& OwnWorldFits::rows_of(const OwnWorld& world) const {
     limits.way = -1;
     const LinkLayout layout(readings_of(world), limits, {}, true, drawn_correlation(s_.model));
     const noise::Rows rows = layout.rows();
-    made.emplace(RowsOfWorld{rows, noise::Field(layout.sites(rows), {.seed = s_.options.seed})});
+    noise::Sites sites = layout.sites(rows);
+    if (time_unit_ > 0) sites = noise::over_time(std::move(sites), layout.times(rows), time_unit_);
+    made.emplace(RowsOfWorld{rows, noise::Field(std::move(sites), {.seed = s_.options.seed})});
   }
   return *made;
 }
@@ -200,7 +206,7 @@ Likelihood OwnWorldFits::likelihood_of(const OwnWorld& world) const {
   const auto& [rows, field] = rows_of(world);
   const VectorXd y = rows.mean(world.rest);
   const MatrixXd design = rows.mean(world.design);
-  const noise::Fit fit = noise::fit_families(field, y, design, s_.options.prior).front();
+  const noise::Fit fit = noise::fit_families(field, y, design, prior()).front();
   return {fit.log_likelihood(), fit.covariance};
 }
 
@@ -227,8 +233,7 @@ InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance
       }
     }
     columns /= 2 * step;
-    const noise::Whitened base =
-        noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), s_.options.prior);
+    const noise::Whitened base = noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), prior());
     const noise::Basis place = noise::basis_of(base.basis.rest(whitener(rows.mean(columns))));
     const VectorXd by = place.coefficients(place.q.transpose() * base.residual, 2);
     const MatrixXd uncertainty = place.uncertainty(2);
@@ -248,8 +253,7 @@ InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance
 // a few readings a whole wall off, which are outliers where nothing else scatters readings.
 void OwnWorldFits::stepped(OwnWorld& world, const noise::Rows& rows, const noise::Whitener& whitener) {
   constexpr double reach = 0.25, step = 0.03;  // m
-  const noise::Whitened base =
-      noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), s_.options.prior);
+  const noise::Whitened base = noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), prior());
   set(world.values);
   Supposed supposed(s_.model, world.hypothesis);
   const VectorXd before = s_.model.expected()(kept_);

@@ -41,7 +41,8 @@ struct Likelihood {
 class OwnWorldFits {
  public:
   // The model is at the setup's fitted parameters as long as this lives, but while a world is fitted.
-  explicit OwnWorldFits(DiagnosisSetup& setup);
+  // `time_unit`: of a diagnosis whose errors are correlated over time (Diagnosis::time_unit), s; else 0.
+  OwnWorldFits(DiagnosisSetup& setup, double time_unit);
 
   const std::vector<Eigen::Index>& rows() const { return kept_; }   // of the table, of the readings
   const Eigen::VectorXd& measured() const { return y_; }            // dBm, there
@@ -61,6 +62,10 @@ class OwnWorldFits {
 
  private:
   void set(const Eigen::VectorXd& values);
+  // Worlds as a whole are compared, so that a long field takes nothing from one of them.
+  const noise::Prior& prior() const {
+    return s_.options.longer && time_unit_ == 0 ? *s_.options.longer : s_.options.prior;
+  }
   OwnWorld linearised(const Hypothesis& hypothesis);
   OwnWorld with_ends(OwnWorld world) const;
   InPlan moved_to_best(Supposed& supposed, const InPlan& start);
@@ -76,6 +81,7 @@ class OwnWorldFits {
   std::set<std::size_t> radios_;
   Eigen::VectorXd y_;
   double scale_;  // of the area, by which a plan may be off as much farther
+  double time_unit_;
 };
 
 // Each less the mean of its group.

@@ -104,14 +104,22 @@ std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
 
 // Readings are as exact as their steps allow, not more: their places and the plan are not. Where the world draws a
 // field, means over rows and nearest neighbours stand for it, which are less exact.
-inference::Options options_for(double step, const LinkModel& model) {
-  inference::Options options;
+double log_least_variance(double step, const LinkModel& model) {
+  const double usual = noise::Prior().log_least_variance;
   if (drawn_field(model).shadowing > 0 ||
       std::sqrt(base_variance(stated_law(model))) > thresholds::least_stated_scatter)
-    return options;
-  const double rounding = std::log(std::max(step * step / 12, 1e-30));
-  options.prior.log_least_variance =
-      std::clamp(rounding, thresholds::log_exact_variance, options.prior.log_least_variance);
+    return usual;
+  return std::clamp(std::log(std::max(step * step / 12, 1e-30)), thresholds::log_exact_variance, usual);
+}
+
+inference::Options options_for(double step, const LinkModel& model) {
+  inference::Options options;
+  options.prior.log_least_variance = log_least_variance(step, model);
+  noise::Prior longer = options.prior;
+  longer.decorrelation_spread = thresholds::outdoor_decorrelation_spread;
+  longer.log_longest =
+      std::log(thresholds::longest_decorrelation_share * scale_of(model) * thresholds::extent_of_a_building);
+  if (longer.log_longest > options.prior.log_longest) options.longer = longer;
   return options;
 }
 

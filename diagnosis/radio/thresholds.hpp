@@ -127,6 +127,11 @@ inline constexpr double both_ends_share = 0.05;
 // m; mean extent of an area, from which what stands in it is sought larger in proportion; chosen;
 // Outdoors.AWallIsFoundThatIsTenTimesAsLong
 inline constexpr double extent_of_a_building = 60;
+// ln m; prior standard deviation of the decorrelation distance outdoors, where it is 2 m among trees and 500 m between
+// suburbs (Gudmundson 1991); chosen; Outdoors.ALongFieldIsNoCause
+inline constexpr double outdoor_decorrelation_spread = 1.4;
+// share; of the area's mean extent, the longest decorrelation distance outdoors; chosen; Outdoors.ALongFieldIsNoCause
+inline constexpr double longest_decorrelation_share = 0.1;
 // m; smallest radius of a hill or a wood, which can be driven through; chosen;
 // Outdoors.AWoodIsFoundThatWasDrivenThrough
 inline constexpr double smallest_wood = 2;
@@ -493,7 +498,7 @@ inline constexpr std::size_t fewest_standing = 3;
 inline constexpr double own_world_near_move = 2;
 // m; the same, further off; chosen; Outdoors.APlanIsFoundThatIsShiftedByAHundredMetres
 inline constexpr double own_world_far_move = 7;
-// readings; by which worlds are judged, evenly spread; chosen; none
+// readings; by which worlds are judged, one at random of each stretch; chosen; none
 inline constexpr std::size_t own_world_readings = 2000;
 // readings; fewest by which worlds are judged; chosen; none
 inline constexpr std::size_t own_world_fewest = 60;

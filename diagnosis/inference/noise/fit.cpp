@@ -63,6 +63,16 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
                   Theta::Ones());
 }
 
+Fit fit_long_too(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+                 const Covariance& start, int steps) {
+  const Fit from_start = fit(field, y, design, prior, start, steps);
+  if (!prior.allows_long()) return from_start;
+  Covariance long_one = start;
+  long_one.theta[1] = prior.log_long();
+  const Fit from_long = fit(field, y, design, prior, long_one, steps);
+  return from_long.value < from_start.value ? from_long : from_start;
+}
+
 Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
                     const WhitenerSlopes& start, int steps) {
   Fit best = fit(field, y, design, prior, start, steps);
@@ -126,7 +136,7 @@ void fit_parts_of_streams(std::vector<Fit>& fits, const Field& field, const Eige
 
 std::vector<Fit> fit_families(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                               const Prior& prior, double advantage) {
-  std::vector<Fit> fits{fit(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
+  std::vector<Fit> fits{fit_long_too(field, y, design, prior, default_start(y, design, Family::exponential), 20)};
   std::vector<Family> all = field.families();
   const std::vector<Family> fixed = field.fixed_families();
   all.insert(all.end(), fixed.begin(), fixed.end());

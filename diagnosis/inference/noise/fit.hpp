@@ -26,6 +26,10 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
 // The same from a start within the prior's limits at which the field is factorised.
 Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
         const WhitenerSlopes& start, int steps);
+// The same from a long field, too, where the prior allows it: between it and a short one the likelihood may have a
+// valley.
+Fit fit_long_too(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
+                 const Covariance& start, int steps);
 // The same over the start's fixed share and the shares beside it, as far as the value falls. As fit() without one.
 Fit fit_over_shares(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
                     const WhitenerSlopes& start, int steps);

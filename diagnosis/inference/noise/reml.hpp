@@ -9,15 +9,20 @@
 namespace muster::noise {
 
 struct Prior {
+  static constexpr double usual_range = 2.4;  // of the logarithm, from the mean to the longest field
+
   double log_decorrelation = inference::thresholds::prior_log_decorrelation;
   double decorrelation_spread = inference::thresholds::prior_decorrelation_spread;
+  double log_longest = log_decorrelation + usual_range;  // ln m
   double logit_shared = inference::thresholds::prior_logit_shared;
   double shared_spread = inference::thresholds::prior_shared_spread;
   double log_least_variance = inference::thresholds::log_least_variance;  // of the field, and of one reading
 
   Theta lower() const { return {log_least_variance, log_decorrelation - 3, log_least_variance, logit_shared - 4}; }
-  Theta upper() const { return {9, log_decorrelation + 2.4, 9, logit_shared + 4}; }
+  Theta upper() const { return {9, log_longest, 9, logit_shared + 4}; }
   Theta inside(const Theta& theta) const { return theta.cwiseMax(lower()).cwiseMin(upper()); }
+  bool allows_long() const { return log_longest > log_decorrelation + usual_range; }
+  double log_long() const { return (log_decorrelation + usual_range + log_longest) / 2; }  // a long field, ln m
 };
 
 struct Objective {

@@ -9,6 +9,7 @@
 #include "diagnosis/inference/score/bulk_inflation.hpp"
 #include "diagnosis/inference/score/clipping_check.hpp"
 #include "diagnosis/inference/score/drawn_inflation.hpp"
+#include "diagnosis/inference/score/longer_fields.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/choose.hpp"
 #include "diagnosis/inference/select/gain_by_row.hpp"
@@ -25,12 +26,14 @@ namespace muster::inference {
 namespace {
 
 constexpr const char* like_clipping = "cannot be told from clipping";
+constexpr const char* beside_a_longer_field = "not beyond chance beside a longer field";
 constexpr const char* few_readings = "rests on fewer than five readings";
 
 struct Blocked {
-  std::set<std::string> now;       // until the model changes
-  std::set<std::string> for_good;  // indistinguishable from clipping
-  int aside = 0;                   // times that readings were set aside, after which a cause was tried again
+  std::set<std::string> now;              // until the model changes
+  std::set<std::string> for_good;         // indistinguishable from clipping
+  std::set<std::string> beside_longer{};  // not beyond chance beside a longer field: asked of them again
+  int aside = 0;                          // times that readings were set aside, after which a cause was tried again
 };
 
 // Fits the noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be a
@@ -69,8 +72,8 @@ double sure_log_p(const ModelState& state, const ScoredCandidate& lead, const no
 }
 
 // Tests a lead for significance over the uncertain covariance, for support by one group alone, and for clipping.
-Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit,
-            const Eigen::MatrixXd& design) {
+Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::Fit& fit, const Eigen::MatrixXd& design,
+            bool beside_longer) {
   const Candidate& c = lead.candidate();
   const WhitenedModel model = state.whitened_model(design, fit.covariance);
   Trial trial;
@@ -105,12 +108,20 @@ Trial tried(const ModelState& state, const ScoredCandidate& lead, const noise::F
     const double decided = state.threshold() - skew;
     log_p = std::max(log_p, skew + marginal_log_p_elsewhere(state, fit, design, lead.columns, tests, decided));
   }
+  bool fails_beside_longer = false;
+  if (log_p <= state.threshold() && beside_longer) {
+    if (const auto gain = gain_beside_longer(state, fit, design, lead.columns))
+      log_p = std::max(log_p, state.log_p(c, *gain, lead.columns.cols(), true));
+    fails_beside_longer = log_p > state.threshold();
+  }
   const GainByRow gains_by_row = gain_by_row(model, lead.columns);
   if (!c.role.pieces.empty() && share_of_others(state, gains_by_row.won) < thresholds::share_of_others)
     trial.marginal_log_p += state.options().one_group_charge;
   trial.of_outlier = trial.log_p <= state.threshold() && of_outlier(state, lead, model, fit.covariance, gains_by_row);
-  if (c.role.level_like && state.problem().bounds.any() &&
-      !separable_from_clipping(state, fit.covariance, design, lead.columns))
+  if (fails_beside_longer)
+    trial.reason = beside_a_longer_field;
+  else if (c.role.level_like && state.problem().bounds.any() &&
+           !separable_from_clipping(state, fit.covariance, design, lead.columns))
     trial.reason = like_clipping;
   else if (trial.marginal_log_p > state.threshold())
     trial.reason = trial.log_p > state.threshold() ? "not beyond chance"
@@ -198,10 +209,13 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   const std::size_t terms = state.terms.size();
   const Eigen::MatrixXd design = state.design();
   const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
-  trials.push_back(tried(state, lead, fit, design));
+  // Is anything wrong at all, and what was refused for it before?
+  const bool beside_longer = state.terms.empty() || blocked.beside_longer.count(lead.candidate().id) > 0;
+  trials.push_back(tried(state, lead, fit, design, beside_longer));
   Trial& trial = trials.back();
   if (!trial.accepted) {
     if (trial.reason == like_clipping) blocked.for_good.insert(trial.id);
+    if (trial.reason == beside_a_longer_field) blocked.beside_longer.insert(trial.id);
     const bool again = trial.of_outlier && trial.reason != like_clipping &&
                        blocked.aside < thresholds::most_set_aside && without_its_outliers(state, lead, fit, design);
     if (again) {

@@ -1,6 +1,8 @@
 // Input of a search: measured values, their layout, the model's own columns, candidates and smooths.
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/inference/noise/censored.hpp"
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/inference/state/candidate.hpp"
@@ -36,6 +38,7 @@ struct Options {
   int most_terms = thresholds::most_terms;
   uint64_t seed = 1;
   noise::Prior prior;
+  std::optional<noise::Prior> longer{};  // of fields beside which what is found must stand, too; none: no longer ones
   Watch watch{};
 };
 

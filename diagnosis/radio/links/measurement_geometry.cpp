@@ -143,36 +143,6 @@ struct Trail {
   }
 };
 
-// From the area over which radios move, or else over which they stand: a far gateway makes no yard larger.
-double scale_of(const LinkModel& model) {
-  struct Area {
-    Span east, north;
-    bool is_empty = true;
-
-    void widen_to(double x, double y) {
-      widen(east, x, is_empty);
-      widen(north, y, is_empty);
-      is_empty = false;
-    }
-  };
-  std::map<int, Area> of_radio;
-  for (const auto& ends : model.ends()) {
-    for (const End& end : ends) of_radio[end.radio].widen_to(end.x, end.y);
-  }
-  Area all, moving;
-  for (const auto& [radio, area] : of_radio) {
-    const bool moves = area.east.length() + area.north.length() > thresholds::moving_extent;
-    for (const double x : {area.east.low, area.east.high}) {
-      for (const double y : {area.north.low, area.north.high}) {
-        all.widen_to(x, y);
-        if (moves) moving.widen_to(x, y);
-      }
-    }
-  }
-  const Area& area = moving.is_empty ? all : moving;
-  return std::max(1.0, std::sqrt(area.east.length() * area.north.length()) / thresholds::extent_of_a_building);
-}
-
 // A step of more than 2 m is no driven path, nor is one that is as long for its area.
 void follow(Trail& trail, const End& end, MeasurementGeometry& survey) {
   const bool first = trail.places.empty();
@@ -230,6 +200,36 @@ double sampling_interval(std::vector<double> times) {
 }
 
 }  // namespace
+
+// From the area over which radios move, or else over which they stand: a far gateway makes no yard larger.
+double scale_of(const LinkModel& model) {
+  struct Area {
+    Span east, north;
+    bool is_empty = true;
+
+    void widen_to(double x, double y) {
+      widen(east, x, is_empty);
+      widen(north, y, is_empty);
+      is_empty = false;
+    }
+  };
+  std::map<int, Area> of_radio;
+  for (const auto& ends : model.ends()) {
+    for (const End& end : ends) of_radio[end.radio].widen_to(end.x, end.y);
+  }
+  Area all, moving;
+  for (const auto& [radio, area] : of_radio) {
+    const bool moves = area.east.length() + area.north.length() > thresholds::moving_extent;
+    for (const double x : {area.east.low, area.east.high}) {
+      for (const double y : {area.north.low, area.north.high}) {
+        all.widen_to(x, y);
+        if (moves) moving.widen_to(x, y);
+      }
+    }
+  }
+  const Area& area = moving.is_empty ? all : moving;
+  return std::max(1.0, std::sqrt(area.east.length() * area.north.length()) / thresholds::extent_of_a_building);
+}
 
 MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data) {
   MeasurementGeometry survey;

@@ -40,6 +40,9 @@ struct MeasurementGeometry {
   bool is_outdoors() const { return scale > 1; }
 };
 
+// MeasurementGeometry::scale alone.
+double scale_of(const LinkModel& model);
+
 MeasurementGeometry measurement_geometry(const LinkModel& model, const Dataset& data);
 
 }  // namespace muster::diagnosis

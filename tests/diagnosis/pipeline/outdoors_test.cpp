@@ -2,7 +2,9 @@
 // a plan a hundred metres off are found as things of a room are.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "diagnosis/pipeline/diagnose.hpp"
@@ -54,10 +56,12 @@ std::vector<std::string> tour(double left_out, Listed by) {
   return rows;
 }
 
-Diagnosis driven_with(const std::string& thing, double left_out = 32, Listed by = {}) {
+Diagnosis driven_with(
+    const std::string& thing, double left_out = 32, Listed by = {},
+    const std::function<double(std::size_t)>& off = [](std::size_t) { return 0.0; }) {
   const Scratch scratch;
   const auto measured =
-      drawn_log(scratch, field_with(scratch, "true.xml", thing), columns, tour(left_out, {}), tour(left_out, by));
+      drawn_log(scratch, field_with(scratch, "true.xml", thing), columns, tour(left_out, {}), tour(left_out, by), off);
   return diagnose(field_with(scratch, "world.xml", "", by), measured, plugins);
 }
 
@@ -106,6 +110,55 @@ TEST(Outdoors, APlanIsFoundThatIsShiftedByAHundredMetres) {
   EXPECT_EQ(shift.id, "effect.plan_shifted");
   EXPECT_NEAR(std::abs(value_of(shift, "east")), 80, 10);
   EXPECT_NEAR(std::abs(value_of(shift, "north")), 60, 10);
+}
+
+// Of a car on a square of 4 km, a reading of each station every 40 m.
+std::vector<std::string> round_trip() {
+  std::vector<std::string> rows;
+  for (int i = 0; i < 400; ++i) {
+    const double along = 40.0 * (i % 100);
+    const std::array<std::array<double, 2>, 4> side{
+        {{along, 0}, {4000, along}, {4000 - along, 4000}, {0, 4000 - along}}};
+    const auto& [x, y] = side[static_cast<std::size_t>(i / 100)];
+    for (const std::string station : {"west,car,-300,1500,20", "middle,car,2200,1700,30"})
+      rows.push_back(print_real(4 * i) + ',' + station + ',' + print_real(x) + ',' + print_real(y) + ",1.5");
+  }
+  return rows;
+}
+
+std::filesystem::path district(const Scratch& scratch, const std::string& name, int seed, const std::string& channel) {
+  std::filesystem::path file = scratch / name;
+  std::ofstream(file) << "<world name=\"district\" dt=\"0.1\" until=\"1\" seed=\"" << seed << "\">"
+                      << "<station name=\"west\" at=\"-300 1500 20\"/><station name=\"middle\" at=\"2200 1700 30\"/>"
+                      << "<station name=\"car\" at=\"0 0 1.5\"/>"
+                      << "<radio.multiwall tx_power=\"14\" l0=\"30\" n=\"2.9\"/>"
+                      << "<radio.receiver sensitivity=\"-200\"/>" << channel << "</world>";
+  return file;
+}
+
+// A field decorrelates over far more outdoors than indoors. Held to a few metres it passes for noise that no place
+// shares, beside which its own waves are causes.
+TEST(Outdoors, ALongFieldIsNoCause) {
+  for (const int seed : {1, 6, 9, 12, 13}) {
+    const Scratch scratch;
+    const auto rows = round_trip();
+    const auto measured = drawn_log(
+        scratch, district(scratch, "true.xml", seed, "<radio.gudmundson shadowing=\"5\" decorrelation=\"150\"/>"),
+        columns, rows, rows);
+    const Diagnosis found = diagnose(district(scratch, "world.xml", seed, ""), measured, plugins);
+    for (const CauseEstimate& c : found.causes) ADD_FAILURE() << seed << ": " << c.id << ' ' << c.lambda;
+  }
+}
+
+// Each stray draws things and walls to its own place, where they rest on it alone.
+TEST(Outdoors, AHillIsFoundBesideStrayReadings) {
+  const Diagnosis found =
+      driven_with("<effect.obstacle x=\"150\" y=\"100\" radius=\"22\" loss=\"7\" height=\"30\"/>", 32, {},
+                  [](std::size_t i) { return i == 300 || i == 801 || i == 1100 ? -40.0 : 0.0; });
+  ASSERT_EQ(found.causes.size(), 1u);
+  EXPECT_EQ(found.causes[0].id, "effect.obstacle");
+  EXPECT_NEAR(value_of(found.causes[0], "x"), 150, 10);
+  EXPECT_NEAR(value_of(found.causes[0], "y"), 100, 10);
 }
 
 }  // namespace
