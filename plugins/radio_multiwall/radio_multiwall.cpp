@@ -23,7 +23,7 @@ struct RadioMultiwall {
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {
       real("tx_power", 0, -100, 100, "dBm", "transmit power"),
-      real("l0", 40, -60, 150, "dB", "loss at 1 m, less antenna gains").free(),
+      real("l0", 40, -30, 150, "dB", "loss at 1 m, less antenna gains").free(),
       real("n", 2, 0, 10, "", "path-loss exponent; only with model=\"multi_wall|log_distance\"").free(),
       choice("model", "multi_wall|log_distance|disc|perfect", "what is modelled"),
       real("radius", 20, 0.01, 1e6, "m", "of the disc; only with model=\"disc\""),
