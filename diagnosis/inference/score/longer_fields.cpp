@@ -8,8 +8,8 @@ std::optional<double> gain_beside_longer(const ModelState& state, const noise::F
                                          const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns) {
   if (!state.options().longer || state.time_unit() > 0 || noise::is_stated(beside.covariance.family)) return {};
   constexpr int steps = 14;
-  const auto fitted = [&](const Eigen::MatrixXd& columns_of_mean) {
-    return noise::fit_long_too(state.field(), state.y(), columns_of_mean, *state.options().longer, beside.covariance,
+  const auto fitted = [&](const Eigen::MatrixXd& mean_columns) {
+    return noise::fit_long_too(state.field(), state.y(), mean_columns, *state.options().longer, beside.covariance,
                                steps);
   };
   const noise::Fit without = fitted(design);

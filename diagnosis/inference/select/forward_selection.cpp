@@ -32,7 +32,7 @@ constexpr const char* few_readings = "rests on fewer than five readings";
 struct Blocked {
   std::set<std::string> now;              // until the model changes
   std::set<std::string> for_good;         // indistinguishable from clipping
-  std::set<std::string> beside_longer{};  // not beyond chance beside a longer field: asked of them again
+  std::set<std::string> beside_longer{};  // refused beside a longer field, and held to it from then on
   int aside = 0;                          // times that readings were set aside, after which a cause was tried again
 };
 
@@ -209,7 +209,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   const std::size_t terms = state.terms.size();
   const Eigen::MatrixXd design = state.design();
   const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
-  // Is anything wrong at all, and what was refused for it before?
+  // The first finding must stand beside a longer field, and so must what was refused for it before.
   const bool beside_longer = state.terms.empty() || blocked.beside_longer.count(lead.candidate().id) > 0;
   trials.push_back(tried(state, lead, fit, design, beside_longer));
   Trial& trial = trials.back();

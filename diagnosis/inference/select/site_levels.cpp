@@ -1,6 +1,5 @@
 #include "diagnosis/inference/select/site_levels.hpp"
 
-#include <cmath>
 #include <optional>
 #include <set>
 
