@@ -65,11 +65,11 @@ Fit fit(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& des
 
 Fit fit_long_too(const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design, const Prior& prior,
                  const Covariance& start, int steps) {
-  const Fit from_start = fit(field, y, design, prior, start, steps);
+  Fit from_start = fit(field, y, design, prior, start, steps);
   if (!prior.allows_long()) return from_start;
   Covariance long_one = start;
   long_one.theta[1] = prior.log_long();
-  const Fit from_long = fit(field, y, design, prior, long_one, steps);
+  Fit from_long = fit(field, y, design, prior, long_one, steps);
   return from_long.value < from_start.value ? from_long : from_start;
 }
 

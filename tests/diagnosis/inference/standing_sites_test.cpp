@@ -43,7 +43,9 @@ Candidate waves_over(const World& world) {
     const auto x = world.readings.rx_at.row(0).array(), y = world.readings.rx_at.row(1).array();
     return (theta[0] * x + theta[1] * y + theta[2]).sin().matrix().transpose();
   };
-  for (int k = 0; k < 150; ++k) waves.design.grid.push_back(Eigen::Vector3d(0.1 * (k % 15), 0.1 * (k / 15), 0.4));
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 15; ++x) waves.design.grid.push_back(Eigen::Vector3d(0.1 * x, 0.1 * y, 0.4));
+  }
   return waves;
 }
 
