@@ -3,9 +3,11 @@
 #include <sqlite3.h>
 #include <sys/vfs.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <thread>
 
 #include "text/error.hpp"
 
@@ -42,7 +44,7 @@ Database::Database(const std::filesystem::path& file) : file_(file) {
   }
   try {
     sqlite3_busy_timeout(handle_, patience);
-    if (!is_of_several_machines(file)) run("PRAGMA journal_mode = WAL");
+    if (!is_of_several_machines(file)) use_write_ahead_log();
     run("PRAGMA synchronous = NORMAL");
     run("PRAGMA foreign_keys = ON");
   } catch (...) {
@@ -57,6 +59,18 @@ void Database::fail() const { throw Error(Exit::io, Place{file_.string()}, sqlit
 
 void Database::run(const std::string& sql) {
   if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+}
+
+// Of two connections that turn a new file's journal into a log one is refused at once, whatever the busy timeout: both
+// hold a read lock, and waiting for each other would last for ever (sqlite3_busy_handler()).
+void Database::use_write_ahead_log() {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience);
+  for (;;) {
+    const int code = sqlite3_exec(handle_, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+    if (code == SQLITE_OK) return;
+    if (code != SQLITE_BUSY || std::chrono::steady_clock::now() > end) fail();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
 }
 
 std::int64_t Database::number(const std::string& sql) {

@@ -25,6 +25,7 @@ class Database {
  private:
   friend class Statement;
   [[noreturn]] void fail() const;
+  void use_write_ahead_log();
 
   std::filesystem::path file_;
   sqlite3* handle_ = nullptr;

@@ -87,6 +87,27 @@ TEST(JobTable, ManyProcessesDoEachJobOnce) {
   EXPECT_EQ(Database(folder.path() / JobTable::file_name).number("SELECT max(begun) FROM job"), 1);
 }
 
+// Two that began at once: one of them ended with "database is locked".
+TEST(JobTable, ManyProcessesMakeOne) {
+  for (int round = 0; round < 40; ++round) {
+    const Folder folder;
+    int start[2] = {};
+    ASSERT_EQ(::pipe(start), 0);
+    std::vector<pid_t> children;
+    for (int i = 0; i < 6; ++i) {
+      children.push_back(in_child([&] {
+        ::close(start[1]);
+        char none = 0;
+        if (::read(start[0], &none, 1) == 0) fill(folder, 1, {1});  // when the last writer has closed it
+      }));
+    }
+    ::close(start[0]);
+    ::close(start[1]);
+    for (const pid_t child : children) ASSERT_EQ(exit_of(child), 0) << "round " << round;
+    EXPECT_EQ(JobTable(folder.path()).counts().all, 1);
+  }
+}
+
 TEST(JobTable, AClaimEndsWithItsWorker) {
   const Folder folder;
   fill(folder, 1, {1, 2});
