@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "diagnosis/inference/state/null_tail.hpp"
@@ -66,8 +67,8 @@ struct Diagnosed {
   const inference::Watch& watch;
   std::optional<double> end;  // of the table's readings, dBm
 
-  // In the world corrected for a cause that was judged in a world of its own. Nothing if the error at left-out places
-  // is above that beside all that was found in the given world. `by_itself`: as of Diagnoser::run.
+  // In the world corrected for a cause that was judged in a world of its own, in order. Nothing if the error at
+  // left-out places is above that beside all that was found in the given world. `by_itself`: as of Diagnoser::run.
   std::optional<Diagnosis> corrected_for(const OwnWorldVerdict& verdict, const Diagnosis& found, bool by_itself) const {
     Diagnosis first = found;
     first.causes = {*verdict.cause};
@@ -78,11 +79,12 @@ struct Diagnosed {
             .run(&first, by_itself);
     if (is_worse(out, found)) return {};
     keep_notes_of_given(world, found, folder.path(), out);
+    in_order(out);
     return out;
   }
 
-  // In the world put right for the first cause of `first`. Where the same is found there again, such as a radio that is
-  // not where it was put, in the world put right for all at once, if that comes nearer.
+  // In the world put right for the first cause of `first`, which stays the first. Where the same is found there again,
+  // such as a radio that is not where it was put, in the world put right for all at once, if that comes nearer.
   Diagnosis put_right(Diagnosis first, const Diagnosis& found) const {
     constexpr int most = 3;
     std::optional<Diagnosis> before;
@@ -127,13 +129,15 @@ void add_blockage(CauseEstimate blockage, Diagnosis& found) {
   const bool is_outweighed = std::any_of(found.causes.begin(), found.causes.end(), [&](const CauseEstimate& c) {
     return c.status == inference::Status::named && c.evidence > blockage.evidence;
   });
-  const bool is_doubtful = is_outweighed && blockage.lambda < thresholds::sure_blockage;
-  if (is_doubtful) {
+  if (is_outweighed && blockage.lambda < thresholds::sure_blockage) {
     blockage.status = inference::Status::suspected;
     blockage.doubt = "small, and seen before the other causes were known: it may be what they had left over";
   }
-  found.causes.insert(found.causes.begin(), std::move(blockage));
-  if (is_doubtful) in_order(found);
+  // Nothing was left out to see what it gains: its place is by what it explains.
+  const auto rank = [](const CauseEstimate& c) { return std::tuple(c.status, !c.doubt.empty(), -c.lambda); };
+  const auto weaker = std::find_if(found.causes.begin(), found.causes.end(),
+                                   [&](const CauseEstimate& c) { return rank(c) > rank(blockage); });
+  found.causes.insert(weaker, std::move(blockage));
 }
 
 // Of the world as it is given.
@@ -202,6 +206,7 @@ Diagnosis diagnose(const std::filesystem::path& world, const std::filesystem::pa
   if (!blockage) {
     Diagnosis corrected = Diagnosed{world, data, plugins, tables, watch, end}.put_right(first, found);
     if (watch.stop()) return interrupted(std::move(found));
+    in_order(corrected);
     add_searched(verdict, corrected);
     if (!exchanged.cause) return corrected;
     watch.at("diagnosing again, with the world corrected for " + exchanged.cause->id);

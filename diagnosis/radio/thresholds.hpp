@@ -143,6 +143,9 @@ inline constexpr double longest_step = 2;
 inline constexpr double least_heights = 0.3;
 // places; of moving radios, one of which lies in a room that was visited; chosen; none
 inline constexpr std::size_t places_of_visit = 50;
+// m; least width of a hall, of which things may fill a corner, beside that of other rooms; chosen;
+// Hall.ACornerOfItMayBeCluttered
+inline constexpr double widest_room = 10;
 // m; narrowest strip between two walls; chosen; none
 inline constexpr double narrowest_strip = 1;
 // m; widest strip between two walls; chosen; none
@@ -491,8 +494,9 @@ inline constexpr double second_station_apart = 2;
 
 // pipeline: worlds of their own
 
-// radios; that stand, by which a plan shows how it is turned; derived; none
-inline constexpr std::size_t fewest_standing = 3;
+// radios; that stand, by which a plan shows how it is turned: two points do; derived;
+// OwnWorld.APlanOfTwoStationsIsTurned
+inline constexpr std::size_t fewest_standing = 2;
 // m; how far a plan is moved where that is first tried, outdoors as many times as far as its scale; chosen;
 // OwnWorldLoop.IsNamedAndTheExtendedWorldIsSilent
 inline constexpr double own_world_near_move = 2;

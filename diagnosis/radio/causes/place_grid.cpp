@@ -125,7 +125,9 @@ std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeomet
                                 bool stands) {
   if (shape.cause.meaning().kind == MUSTER_WORLD_EDIT && shape.place == PlaceShape::point)
     return around_radios(shape, survey, model);
-  if (shape.is_room() && !survey.rooms.empty()) return rooms_of_plan(shape, survey);
+  std::vector<VectorXd> rooms;
+  if (shape.is_room() && !survey.rooms.empty()) rooms = rooms_of_plan(shape, survey);
+  if (!rooms.empty() && !survey.has_hall()) return rooms;
   if (shape.is_strip() && !survey.strips.empty()) return between_walls(shape, survey);
   if (shape.place == PlaceShape::none) return start_grid(shape, {VectorXd()});
   std::vector<VectorXd> places = places_over(shape.place, survey, !stands);
@@ -133,7 +135,9 @@ std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeomet
     const std::vector<VectorXd> more = through_radios(survey);
     places.insert(places.end(), more.begin(), more.end());
   }
-  return start_grid(shape, places);
+  std::vector<VectorXd> starts = start_grid(shape, places);
+  starts.insert(starts.end(), rooms.begin(), rooms.end());
+  return starts;
 }
 
 }  // namespace muster::diagnosis

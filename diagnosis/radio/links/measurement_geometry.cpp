@@ -202,6 +202,12 @@ double sampling_interval(std::vector<double> times) {
 }  // namespace
 
 // From the area over which radios move, or else over which they stand: a far gateway makes no yard larger.
+bool MeasurementGeometry::has_hall() const {
+  return std::any_of(rooms.begin(), rooms.end(), [&](const OrientedRectangle& room) {
+    return std::min(room.length, room.width) > thresholds::widest_room * scale;
+  });
+}
+
 double scale_of(const LinkModel& model) {
   struct Area {
     Span east, north;

@@ -15,14 +15,9 @@ double clip_level(const Instance& instance) {
   return instance.params()[static_cast<std::size_t>(at)];
 }
 
-namespace {
-
-// True if the world writes the level, which is no default then.
 bool is_stated(const Instance& instance) {
   return instance.declared().attribute(instance.plugin().clip->level) != nullptr;
 }
-
-}  // namespace
 
 std::map<std::string, double> unstated_floors(const Simulation& simulation) {
   std::map<std::string, double> result;

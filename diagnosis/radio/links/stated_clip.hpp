@@ -13,6 +13,8 @@ namespace muster::diagnosis {
 bool clips(const muster_plugin& plugin, uint32_t side, bool silent);
 // Level at which an instance of such a plugin clips, dBm.
 double clip_level(const Instance& instance);
+// True if the world writes that level, which is no default then.
+bool is_stated(const Instance& instance);
 // Level that the world writes, dBm, below which an instance of it lets nothing through. A default is no statement.
 std::optional<double> silent_below(const Simulation& simulation);
 // Paths of the levels of other such instances, with the lowest that each may be.

@@ -12,11 +12,10 @@
 #include "diagnosis/pipeline/own_world_hypotheses.hpp"
 #include "diagnosis/radio/causes/place_grid.hpp"
 #include "tests/diagnosis/pipeline/damaged_log.hpp"
+#include "tests/diagnosis/pipeline/drawn_log.hpp"
 
 namespace muster::diagnosis {
 namespace {
-
-const Library::SearchPath plugins = {MUSTER_PLUGINS_DIR};
 
 TEST(OwnWorld, CleanReadingsAreSilent) {
   const Scratch scratch;
@@ -105,7 +104,7 @@ TEST(Hypotheses, StayWithinTheBoundsOfTheirCause) {
 }
 
 // What the map has wrong and what a radio has, each hide the other: without levels of the radios both of these logs
-// were another shadowing.
+// were another shadowing. What gains more stands first, though it was found in the world put right for the other.
 TEST(OwnWorld, AFaultOfTheMapIsFoundBesideAWeakStation) {
   for (const auto& [fault, seed, weak] : {std::tuple(Fault::swapped, 1u, 2u), std::tuple(Fault::mirrored, 2u, 0u)}) {
     const Scratch scratch;
@@ -113,8 +112,40 @@ TEST(OwnWorld, AFaultOfTheMapIsFoundBesideAWeakStation) {
     maker.weaken(weak, 15);
     const DamagedLog log = maker.write(scratch);
     const Diagnosis found = diagnose(log.world, log.table, plugins);
-    EXPECT_EQ(names_in_words(named_causes(found)), log.truth + ", effect.tx_offset radio/s" + std::to_string(weak + 1));
+    EXPECT_EQ(names_in_words(named_causes(found)),
+              "effect.tx_offset radio/s" + std::to_string(weak + 1) + ", " + log.truth);
+    ASSERT_TRUE(found.causes.at(0).held_out && found.causes.at(1).held_out);
+    EXPECT_GT(found.causes[0].held_out->gain, found.causes[1].held_out->gain);
   }
+}
+
+// A yard of 60 m with two masts. Their plan was not tested, and another shadowing was named.
+TEST(OwnWorld, APlanOfTwoStationsIsTurned) {
+  const Scratch scratch;
+  const auto yard = [&](const std::string& name, const std::string& west, const std::string& north) {
+    return scratch.write(name, "<world name=\"yard\" dt=\"0.1\" until=\"1\" seed=\"5\"><station name=\"west\" at=\"" +
+                                   west + "\"/><station name=\"north\" at=\"" + north +
+                                   "\"/><radio.multiwall tx_power=\"0\" l0=\"32\" n=\"2.5\"/>"
+                                   "<radio.fading shadowing=\"3\" decorrelation=\"4\" rician_k=\"6\" "
+                                   "per_reading=\"true\"/><radio.receiver sensitivity=\"-200\"/></world>");
+  };
+  std::vector<std::string> rows, listed;
+  double t = 0;
+  for (double y = 2; y < 60; y += 4) {
+    for (double x = 1; x < 60; x += 2.5, t += 2) {
+      const std::string rover = ',' + print_real(x) + ',' + print_real(y) + ",0.6";
+      for (const char* mast : {",west,rover,-4,24,3", ",north,rover,34,62,4"})
+        rows.push_back(print_real(t) + mast + rover);
+      for (const char* mast : {",west,rover,36,-4,3", ",north,rover,-2,34,4"})  // by a quarter about (30, 30)
+        listed.push_back(print_real(t) + mast + rover);
+    }
+  }
+  const auto measured = drawn_log(scratch, yard("true.xml", "-4 24 3", "34 62 4"),
+                                  "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m]", rows, listed);
+  const Diagnosis found = diagnose(yard("world.xml", "36 -4 3", "-2 34 4"), measured, plugins);
+  ASSERT_EQ(found.causes.size(), 1u) << names_in_words(named_causes(found));
+  EXPECT_EQ(found.causes[0].id, "effect.plan_turned");
+  EXPECT_EQ(found.causes[0].words.at("how"), "turned_90");
 }
 
 // The corrected world was a file for the time of the diagnosis: its author has no such file to look into.

@@ -107,27 +107,36 @@ TEST(Survey, AThingIsHeldAgainstTheFieldBesideIt) {
   }
 }
 
+// Loses the weakest readings of a table, so many, and moves all levels so that the weakest that is left lies there,
+// dBm; not where that is none. The weakest that is left.
+double lose_weakest(const std::filesystem::path& file, std::size_t count, std::optional<double> there = {}) {
+  std::vector<std::string> rows;
+  std::vector<double> levels;
+  std::ifstream drawn(file);
+  std::string title;
+  std::getline(drawn, title);
+  for (std::string line; std::getline(drawn, line);) {
+    rows.push_back(line.substr(0, line.rfind(',') + 1));
+    levels.push_back(std::stod(line.substr(rows.back().size())));
+  }
+  drawn.close();
+  std::vector<double> sorted = levels;
+  std::sort(sorted.begin(), sorted.end());
+  const double least = sorted.at(count), moved = there ? *there - least : 0;
+  std::ofstream heard(file);
+  heard << title << '\n';
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    heard << rows[k] << (levels[k] < least ? "" : print_real(levels[k] + moved)) << '\n';
+  return least + moved;
+}
+
 // The six weakest readings are lost. A receiver that hears anything has a floor, then; of one that hears nothing below
 // a level not far off they were lost there, in shadows deeper than expected.
 TEST(Survey, LossesBelowTheStatedFloorAreNoOtherFloor) {
   const Scratch scratch;
   const auto world = flat(scratch, 3, "shadowing=\"2\" decorrelation=\"2\" rician_k=\"8\" per_reading=\"true\"");
   const auto file = drawn_by(scratch, world);
-  std::vector<std::string> lines;
-  std::vector<double> levels;
-  std::ifstream drawn(file);
-  for (std::string line; std::getline(drawn, line);) {
-    lines.push_back(line);
-    if (lines.size() > 1) levels.push_back(std::stod(line.substr(line.rfind(',') + 1)));
-  }
-  drawn.close();
-  std::sort(levels.begin(), levels.end());
-  std::ofstream heard(file);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const auto last = lines[k].rfind(',') + 1;
-    heard << (k > 0 && std::stod(lines[k].substr(last)) < levels[6] ? lines[k].substr(0, last) : lines[k]) << '\n';
-  }
-  heard.close();
+  const double floor = lose_weakest(file, 6);
   const std::string given = contents(world);
   const std::string any = "sensitivity=\"-200\"";
   const auto floor_named = [&](const std::string& sensitivity) {
@@ -137,7 +146,22 @@ TEST(Survey, LossesBelowTheStatedFloorAreNoOtherFloor) {
     return names(diagnose(world, file, plugins), "effect.rssi_floor");
   };
   EXPECT_TRUE(floor_named("-200"));
-  EXPECT_FALSE(floor_named(print_real(levels[6] - 6)));
+  EXPECT_FALSE(floor_named(print_real(floor - 6)));
+}
+
+// The default of a receiver that the world does not write, -95 dBm, was taken for the world's own floor: one of lambda
+// 1,000 that lay there was silent.
+TEST(Survey, ADefaultIsNoFloorOfTheWorld) {
+  const Scratch scratch;
+  const auto world = flat(scratch, 3, "shadowing=\"2\" decorrelation=\"2\" rician_k=\"8\" per_reading=\"true\"");
+  const auto file = drawn_by(scratch, world);
+  lose_weakest(file, 150, -95.2);
+  std::string without = contents(world);
+  const std::string receiver = "<radio.receiver sensitivity=\"-200\"/>";
+  std::ofstream(world) << without.erase(without.find(receiver), receiver.size());
+  const Diagnosis found = diagnose(world, file, plugins);
+  EXPECT_EQ(names_in_words(named_causes(found)), "effect.rssi_floor all");
+  EXPECT_STREQ(found.verdict(), "extended");
 }
 
 }  // namespace
