@@ -85,8 +85,9 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
 }
 
 // A receiver's floor is one of what it received.
-MissingData missing_from(const Readings& readings, const Eigen::VectorXd& mean, double sigma) {
-  return missing_data(readings.received(readings.rssi), readings.received(mean), sigma);
+MissingData missing_from(const Readings& readings, const Search& search, double sigma) {
+  return missing_data(readings.received(readings.rssi), readings.received(search.model.expected()), sigma,
+                      silent_below(search.model.simulation()));
 }
 
 // Fits with all missing readings below the floor.
@@ -109,7 +110,7 @@ void look_for_stated_floor(Fit& fit, const Search& search, const Mean& mean, con
   Minimum censored = fit.least_squares;
   fit_censored(readings, fit.missing.floor, censored, mean, box);
   search.set(censored.parameters);
-  const MissingData missing = missing_from(readings, search.model.expected(), censored.sigma);
+  const MissingData missing = missing_from(readings, search, censored.sigma);
   if (missing.censored && censored.sigma < thresholds::wider_beside_floor * fit.least_squares.sigma)
     fit.missing = missing;
   else
@@ -122,7 +123,7 @@ void solve(Fit& fit, const Search& search) {
   const Box box = search.box();
   fit.least_squares = least_squares(fit.readings, mean, search.start(), box);
   search.set(fit.least_squares.parameters);
-  fit.missing = missing_from(fit.readings, search.model.expected(), fit.least_squares.sigma);
+  fit.missing = missing_from(fit.readings, search, fit.least_squares.sigma);
   look_for_stated_floor(fit, search, mean, box);
   if (fit.missing.censored) fit_censored(fit.readings, fit.missing.floor, fit.least_squares, mean, box);
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);

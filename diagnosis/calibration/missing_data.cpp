@@ -93,7 +93,8 @@ bool MissingData::rises() const {
          more > thresholds::rising_errors * std::sqrt(variance(bins.front()) + variance(bins.back()));
 }
 
-MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma) {
+MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma,
+                         std::optional<double> stated) {
   std::vector<double> lost_at, heard_at, heard;
   for (Eigen::Index i = 0; i < rssi.size(); ++i) {
     (std::isnan(rssi[i]) ? lost_at : heard_at).push_back(mean[i]);
@@ -119,6 +120,11 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.share_at_random = best.random;
   result.by_floor = best.by_floor;
   result.evidence = 2 * (best.log_likelihood - chance);
+  result.beyond_stated = result.evidence;
+  if (stated) {  // where levels have a gap, the weakest that was heard may lie far above the floor
+    const double there = with_floor(lost_at, heard_at, *stated, std::max(sigma, 0.1)).log_likelihood;
+    result.beyond_stated = std::min(result.evidence, 2 * (best.log_likelihood - there));
+  }
   // Censored needs both a significant rise and most of the losses explained by the floor. 10 is p < 0.002 for one
   // parameter; neighbouring readings are lost jointly.
   const bool risen = result.evidence > thresholds::censored_evidence;

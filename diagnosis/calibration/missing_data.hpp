@@ -1,6 +1,8 @@
 // Tests if readings are missing below a floor (censored) or at random.
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/calibration/censored_likelihood.hpp"
 
 namespace muster::diagnosis {
@@ -13,6 +15,7 @@ struct MissingData {
   double share_at_random = 0;  // of all readings, independent of level
   double by_floor = 0;         // share of the missing ones explained by the floor
   double evidence = 0;         // twice the log-likelihood ratio of the mixture against random loss
+  double beyond_stated = 0;    // the same against a floor that the world states; without one, `evidence`
   double none_below = 1;       // probability of so few received readings below the floor without one
   struct Bin {
     double level;  // mean predicted level, dBm
@@ -24,7 +27,9 @@ struct MissingData {
   bool rises() const;
 };
 
-// `mean` and `sigma`: of a fit to the received readings.
-MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma);
+// `mean` and `sigma`: of a fit to the received readings. `stated`: level below which the world lets nothing through,
+// dBm.
+MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mean, double sigma,
+                         std::optional<double> stated = {});
 
 }  // namespace muster::diagnosis

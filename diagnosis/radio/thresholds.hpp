@@ -146,6 +146,11 @@ inline constexpr std::size_t places_of_visit = 50;
 // m; least width of a hall, of which things may fill a corner, beside that of other rooms; chosen;
 // Hall.ACornerOfItMayBeCluttered
 inline constexpr double widest_room = 10;
+// m; widest gap between two walls in one line that may be a doorway, whose door the plan leaves out; chosen;
+// RoomDetection.AGapInALineOfWallsIsADoorway
+inline constexpr double widest_doorway = 3;
+// cosine; of the angle by which two walls in one line may differ, 6 degrees; chosen; none
+inline constexpr double in_one_line = 0.995;
 // m; narrowest strip between two walls; chosen; none
 inline constexpr double narrowest_strip = 1;
 // m; widest strip between two walls; chosen; none

@@ -67,15 +67,16 @@ struct Disk {
 // A rectangle about (x, y), its length along `heading`.
 struct Rectangle {
   double x, y, length, width, heading;
+  double c = std::cos(heading), s = std::sin(heading);
 
   bool holds(const Pose& p) const {
-    const double east = p.x - x, north = p.y - y, c = std::cos(heading), s = std::sin(heading);
+    const double east = p.x - x, north = p.y - y;
     return std::abs(c * east + s * north) <= length / 2 && std::abs(c * north - s * east) <= width / 2;
   }
 
   // Length of the link's path from a to b inside, in plan, in m.
   double way(const Pose& a, const Pose& b) const {
-    const double c = std::cos(heading), s = std::sin(heading), ex = b.x - a.x, ey = b.y - a.y;
+    const double ex = b.x - a.x, ey = b.y - a.y;
     double from = 0, to = 1;
     const auto cut = [&](double at, double by, double half) {
       if (by == 0) return;  // parallel: the other cut decides, as one end is inside

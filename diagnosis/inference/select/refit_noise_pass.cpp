@@ -18,8 +18,10 @@ bool has(const std::vector<ScoredCandidate>& leads, const ScoredCandidate& lead)
 
 bool looked_at_again(const Candidate& c) { return c.kind == Kind::named || c.role.slow; }
 
-// Three near misses, every candidate whose gain has many optima (the grid may miss the highest), and the best of the
-// ladder.
+// True if the grid may miss the highest gain.
+bool hides_its_best(const Candidate& c) { return c.refinement.starts > 1 || c.refinement.edged; }
+
+// Three near misses, every candidate whose best the grid may miss, and the best of the ladder.
 std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<ScoredCandidate>& first,
                                           const std::function<bool(const Candidate&)>& usable, RememberedRound& known) {
   std::vector<ScoredCandidate> result;
@@ -29,8 +31,7 @@ std::vector<ScoredCandidate> worth_a_look(ModelState& state, const std::vector<S
       result.push_back(lead);
   }
   for (const ScoredCandidate& lead : first) {
-    if (lead.candidate().refinement.starts > 1 && usable(lead.candidate()) && !has(result, lead))
-      result.push_back(lead);
+    if (hides_its_best(lead.candidate()) && usable(lead.candidate()) && !has(result, lead)) result.push_back(lead);
   }
   if (!known.ladder) known.ladder = ladder(state, usable);
   std::vector<ScoredCandidate> slow = *known.ladder;
@@ -62,12 +63,34 @@ double most_to_come(double before, double gain) {
 // Upper bound of the gain with the noise refitted: over 800 observed, none grew to more than 1.7 times as much.
 double most_once_fitted(double gain) { return thresholds::refit_at_least + thresholds::refit_factor * gain; }
 
-// Refines a cause of many optima, and scores it with the noise fitted beside it.
+// Refined beside a field so weak that what lies near the best gains nearly as much. The lead where that gains no more
+// beside the model's own field.
+ScoredCandidate refined_beside_weak_field(const ModelState& state, const WhitenedModel& model,
+                                          const ScoredCandidate& lead) {
+  noise::Covariance weak = state.fit.covariance;
+  weak.theta[0] += std::log(thresholds::weak_field);
+  const WhitenedModel beside = state.whitened_model(model.design, weak);
+  const Candidate& c = lead.candidate();
+  Index at = 0;
+  ScoredCandidate other = lead;
+  other.gain = gains(c, unit_atoms(*lead.entry, beside), beside.at.residual).maxCoeff(&at);
+  other.theta = c.design.grid[static_cast<std::size_t>(at)];
+  other.columns = lead.entry->atom(at);
+  other = refined(state, beside, other, true);
+  other.gain = gain_of(c, model, other.columns);
+  if (other.gain <= lead.gain) return lead;
+  other.evidence = state.evidence(c, other.gain, c.design.width, true);
+  return other;
+}
+
+// Refines a cause whose best the grid may miss, and scores it with the noise fitted beside it.
 ScoredCandidate looked_at(const ModelState& state, const WhitenedModel& model, const Eigen::MatrixXd& design,
                           ScoredCandidate lead, RememberedLeads& known) {
   const Candidate& c = lead.candidate();
-  if (c.refinement.starts > 1)
-    lead = known.worked_out(lead, [&](const ScoredCandidate& from) { return refined(state, model, from, false); });
+  if (hides_its_best(c))
+    lead = known.worked_out(lead, [&](const ScoredCandidate& from) {
+      return c.refinement.edged ? refined_beside_weak_field(state, model, from) : refined(state, model, from, false);
+    });
   lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
   if (state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold()) return lead;
   noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));

@@ -66,6 +66,8 @@ struct Refinement {
   std::function<double(const Eigen::VectorXd& theta)> admitted;
   // Prior log density of theta relative to its maximum, nats. May be empty.
   std::function<double(const Eigen::VectorXd& theta)> belief;
+  // The columns have edges, on which their gain beside a field rests: a theta near the best shows little of it.
+  bool edged = false;
 
   bool any() const { return step.size() > 0 && step.any(); }
 };

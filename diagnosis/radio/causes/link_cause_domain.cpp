@@ -147,6 +147,7 @@ void LinkCauseDomain::describe(const CauseShape& shape, inference::Candidate& c)
   c.role.over_sites = c.own() == "map";
   if (!c.refinement.any()) return;
   c.refinement.starts = stands(c) ? (shape.place == PlaceShape::segment ? 16 : 10) : edit ? 12 : 1;
+  c.refinement.edged = shape.is_room() && given_sizes(shape) == 0;
   c.refinement.evaluations = edit ? 60 : placed ? 110 : 35;
   c.refinement.charge = charge_of(shape, c);
 }

@@ -94,7 +94,7 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   const std::vector<const Cause*> causes = clips_of(s, MUSTER_BELOW, true);
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
   const double independent = missing.censored ? 1 : thresholds::joint_loss;  // neighbours are lost jointly
-  const double gain = independent * missing.evidence;
+  const double gain = independent * missing.beyond_stated;
   LawTest test{"", {}, gain, gain / 2, inference::log_tail(gain, 1)};
   if (missing.cut_off && !missing.censored)
     test.log_p = inference::log_p_of_both(test.log_p, independent * std::log(std::max(missing.none_below, 1e-300)));
@@ -222,7 +222,9 @@ bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& fo
   const double squares = heard.select((rssi - mean).array().square(), 0).sum();
   const double sigma = std::sqrt(squares / static_cast<double>(heard.count()));
   const Readings& readings = s.fit.readings;
-  return add_silence(s, missing_data(readings.received(rssi), readings.received(mean), sigma), found);
+  return add_silence(
+      s, missing_data(readings.received(rssi), readings.received(mean), sigma, silent_below(s.model.simulation())),
+      found);
 }
 
 }  // namespace muster::diagnosis

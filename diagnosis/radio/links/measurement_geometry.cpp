@@ -30,8 +30,9 @@ double direction_of_walls(const LinkModel& model) {
     c += length * std::cos(4 * std::atan2(y, x));
     s += length * std::sin(4 * std::atan2(y, x));
   }
+  constexpr double rounding = 1e-9;  // a plan along the axes is turned by nothing, and not by nearly a quarter
   const double angle = std::atan2(s, c) / 4;
-  return angle < 0 ? angle + quarter_turn : angle;
+  return angle < -rounding ? angle + quarter_turn : std::max(angle, 0.0);
 }
 
 // Collinear walls, merged.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/radio/thresholds.hpp"
+
 namespace muster::diagnosis {
 namespace {
 
@@ -94,12 +96,37 @@ class Raster {
   int last_ = outside;
 };
 
+using WallLine = std::array<double, 4>;  // x0 y0 x1 y1, m
+
+// Openings that are drawn as a gap between two walls in one line, for which many plans have no door.
+std::vector<WallLine> doorways(const std::vector<WallLine>& walls) {
+  std::vector<WallLine> result;
+  const auto end_of = [](const WallLine& w, int end) { return Eigen::Vector2d(w[end ? 2 : 0], w[end ? 3 : 1]); };
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    for (std::size_t j = i + 1; j < walls.size(); ++j) {
+      for (const auto& [a, b] : {std::array{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
+        const Eigen::Vector2d from = end_of(walls[i], a), to = end_of(walls[j], b), gap = to - from;
+        if (gap.norm() < overlap || gap.norm() > thresholds::widest_doorway) continue;
+        const Eigen::Vector2d along = gap.normalized();
+        const auto goes_on = [&](const WallLine& wall, int end, double sense) {
+          return (end_of(wall, end) - end_of(wall, 1 - end)).normalized().dot(sense * along) > thresholds::in_one_line;
+        };
+        if (goes_on(walls[i], a, 1) && goes_on(walls[j], b, -1)) result.push_back({from.x(), from.y(), to.x(), to.y()});
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Room> rooms_of(const std::vector<std::array<double, 4>>& walls, double angle,
                            const std::vector<std::array<double, 2>>& places) {
   if (walls.size() < 3) return {};
-  Raster raster(walls, angle);
+  std::vector<WallLine> closed = walls;
+  const std::vector<WallLine> gaps = doorways(walls);
+  closed.insert(closed.end(), gaps.begin(), gaps.end());
+  Raster raster(closed, angle);
   std::map<int, int> visits;
   for (const auto& p : places) {
     if (const int room = raster.room_at(p[0], p[1]); room > outside) ++visits[room];

@@ -1,4 +1,4 @@
-// Detects rooms of a plan: areas enclosed by walls, with doors taken as closed.
+// Detects rooms of a plan: areas enclosed by walls, with doors, and gaps that may be some, taken as closed.
 #pragma once
 
 #include <array>

@@ -167,6 +167,18 @@ TEST(MissingData, AFloorInTheTailTakesFew) {
   EXPECT_NEAR(few.floor, -100, 0.5);
 }
 
+// Behind 60 dB of rock all is lost, below what the world's receiver hears; nothing else is weaker than -80 dBm.
+TEST(MissingData, TheStatedFloorExplainsLossesBehindAGap) {
+  Eigen::VectorXd mean(1300), rssi(1300);
+  mean.head(1250).setLinSpaced(-78, -50);
+  mean.tail(50).setLinSpaced(-125, -112);
+  rssi = mean;
+  rssi.tail(50).setConstant(std::nan(""));
+  EXPECT_GT(missing_data(rssi, mean, 2).beyond_stated, 300);
+  EXPECT_LT(missing_data(rssi, mean, 2, -110).beyond_stated, 20);
+  EXPECT_GT(missing_data(rssi, mean, 2, -130).beyond_stated, 200);  // which hears them
+}
+
 // Of seven weak readings three are lost, and one of -96 dBm was received.
 TEST(MissingData, NoFloorIsAboveAReadingThatWasReceived) {
   Eigen::VectorXd mean(1300), rssi(1300);

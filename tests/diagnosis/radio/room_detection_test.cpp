@@ -46,6 +46,17 @@ TEST(RoomDetection, ExcludesSpacesOpenToTheOutside) {
   EXPECT_NEAR(rooms[0].bounds.length, 4, 0.2);
 }
 
+// Without it both bays were one room, and clutter that fills one of them was silent.
+TEST(RoomDetection, AGapInALineOfWallsIsADoorway) {
+  auto walls = two_rooms();
+  walls[3] = wall(4, 0, 4, 0.4);
+  walls.push_back(wall(4, 2.4, 4, 2.95));
+  const std::vector<std::array<double, 2>> places{turned(1, 1), turned(7, 2)};
+  EXPECT_EQ(rooms_of(walls, angle, places).size(), 2u);
+  walls.back() = wall(4.3, 2.4, 4.3, 2.95);  // beside the line, and not across the way
+  EXPECT_EQ(rooms_of(walls, angle, places).size(), 1u);
+}
+
 TEST(RoomDetection, FindsNoneWithoutWalls) { EXPECT_TRUE(rooms_of({}, 0, {{1, 1}}).empty()); }
 
 // Cells grow with the plan, up to their maximum number.
