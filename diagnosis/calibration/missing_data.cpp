@@ -108,11 +108,17 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   const double chance = lost * std::log(lost / all) + (all - lost) * std::log1p(-lost / all);
   // The floor is near the weakest received readings, except for outliers: the likeliest of these. One that was received
   // below it is as unlikely as an outlier is rare.
+  const auto received_below = [&](double floor) {
+    return std::lower_bound(heard.begin(), heard.end(), floor) - heard.begin();
+  };
+  const auto at = [&](double floor) {
+    Mixture mixture = with_floor(lost_at, heard_at, floor, std::max(sigma, 0.1));
+    mixture.log_likelihood += static_cast<double>(received_below(floor)) * thresholds::log_share_below_a_floor;
+    return mixture;
+  };
   Mixture best{.log_likelihood = -1e300};
   for (std::size_t rank = 0; rank <= heard.size() / 1000; rank = std::max<std::size_t>(2 * rank, 1)) {
-    Mixture mixture = with_floor(lost_at, heard_at, heard[rank], std::max(sigma, 0.1));
-    const auto received_below = std::lower_bound(heard.begin(), heard.end(), heard[rank]) - heard.begin();
-    mixture.log_likelihood += static_cast<double>(received_below) * thresholds::log_share_below_a_floor;
+    const Mixture mixture = at(heard[rank]);
     if (mixture.log_likelihood <= best.log_likelihood) continue;
     best = mixture;
     result.floor = heard[rank];
@@ -121,20 +127,23 @@ MissingData missing_data(const Eigen::VectorXd& rssi, const Eigen::VectorXd& mea
   result.by_floor = best.by_floor;
   result.evidence = 2 * (best.log_likelihood - chance);
   result.beyond_stated = result.evidence;
-  if (stated) {  // where levels have a gap, the weakest that was heard may lie far above the floor
-    const double there = with_floor(lost_at, heard_at, *stated, std::max(sigma, 0.1)).log_likelihood;
-    result.beyond_stated = std::min(result.evidence, 2 * (best.log_likelihood - there));
+  double lost_anyway = 0;  // readings expected below the stated floor
+  if (stated) {            // where levels have a gap, the weakest that was heard may lie far above it
+    const Mixture there = at(*stated);
+    result.beyond_stated = std::min(result.evidence, 2 * (best.log_likelihood - there.log_likelihood));
+    lost_anyway = there.below;
   }
   // Censored needs both a significant rise and most of the losses explained by the floor. 10 is p < 0.002 for one
   // parameter; neighbouring readings are lost jointly.
   const bool risen = result.evidence > thresholds::censored_evidence;
   result.censored = risen && result.by_floor > thresholds::censored_share;
   // With mostly random losses, levels must also end abruptly at the floor; a smaller rise (p < 0.05) then suffices.
-  const auto from = [&](double level) { return std::lower_bound(heard.begin(), heard.end(), level); };
-  result.none_below = at_most(static_cast<std::size_t>(from(result.floor) - heard.begin()), best.below);
-  const auto closely_above = static_cast<double>(from(result.floor + thresholds::above_floor) - from(result.floor));
-  result.cut_off = result.evidence > thresholds::cut_off_evidence && thresholds::cut_off_alpha > result.none_below &&
-                   closely_above > best.above / 2;
+  result.none_below =
+      at_most(static_cast<std::size_t>(received_below(result.floor)), std::max(best.below - lost_anyway, 0.0));
+  const auto closely_above =
+      static_cast<double>(received_below(result.floor + thresholds::above_floor) - received_below(result.floor));
+  result.cut_off = result.beyond_stated > thresholds::cut_off_evidence &&
+                   thresholds::cut_off_alpha > result.none_below && closely_above > best.above / 2;
   return result;
 }
 

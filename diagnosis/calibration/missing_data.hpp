@@ -15,7 +15,7 @@ struct MissingData {
   double share_at_random = 0;  // of all readings, independent of level
   double by_floor = 0;         // share of the missing ones explained by the floor
   double evidence = 0;         // twice the log-likelihood ratio of the mixture against random loss
-  double beyond_stated = 0;    // the same against a floor that the world states; without one, `evidence`
+  double beyond_stated = 0;    // the same against the floor that the world states, at most `evidence`
   double none_below = 1;       // probability of so few received readings below the floor without one
   struct Bin {
     double level;  // mean predicted level, dBm

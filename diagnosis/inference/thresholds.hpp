@@ -161,9 +161,6 @@ inline constexpr double relocation_nats = 1;
 
 // probability; below which a lead is a near miss, worth a refit of the noise; chosen; none
 inline constexpr double near_miss_p = 0.5;
-// times; the deviation of the model's field, of one beside which places near the best of a cause with edges show it;
-// chosen; Hall.ClutterOfAnySizeIsFoundInAField
-inline constexpr double weak_field = 0.1;
 // near misses; refitted in one round; chosen; none
 inline constexpr std::size_t most_near_misses = 3;
 // slow leads; refitted in one round; chosen; none

@@ -133,11 +133,11 @@ void add_blockage(CauseEstimate blockage, Diagnosis& found) {
     blockage.status = inference::Status::suspected;
     blockage.doubt = "small, and seen before the other causes were known: it may be what they had left over";
   }
-  // Nothing was left out to see what it gains: its place is by what it explains.
+  // Nothing was left out to see what it gains: its place is behind all that explain more.
   const auto rank = [](const CauseEstimate& c) { return std::tuple(c.status, !c.doubt.empty(), -c.lambda); };
-  const auto weaker = std::find_if(found.causes.begin(), found.causes.end(),
-                                   [&](const CauseEstimate& c) { return rank(c) > rank(blockage); });
-  found.causes.insert(weaker, std::move(blockage));
+  const auto stronger = std::find_if(found.causes.rbegin(), found.causes.rend(),
+                                     [&](const CauseEstimate& c) { return rank(c) < rank(blockage); });
+  found.causes.insert(stronger.base(), std::move(blockage));
 }
 
 // Of the world as it is given.

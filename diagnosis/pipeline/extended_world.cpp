@@ -175,8 +175,11 @@ fs::path write_extended_world(const Diagnosis& found, const fs::path& world, con
       e->SetAttribute(path.substr(slash + 1).c_str(), print_real(value).c_str());
   }
   add_radios(root, found);
-  for (const CauseEstimate& cause : found.causes) {
-    if (cause.status == inference::Status::named) add_cause(root, cause, out);
+  // Edits of places do not commute: what was found in a world put right for another stands after that.
+  for (const bool first : {true, false}) {
+    for (const CauseEstimate& cause : found.causes) {
+      if (cause.status == inference::Status::named && cause.corrected_first == first) add_cause(root, cause, out);
+    }
   }
   fs::path written = out / file.filename();
   if (document.SaveFile(written.string().c_str()) != tinyxml2::XML_SUCCESS)

@@ -203,7 +203,7 @@ Hypotheses hypotheses_of(const DiagnosisSetup& setup, const Diagnosis& found) {
     std::string why = why_not(cause, geometry, setup.data);
     if (why.empty() && rows.empty()) why = why_no_rows(cause);
     if (why.empty() && sought_by(cause) && geometry.standing.size() < thresholds::fewest_standing && walls.empty())
-      why = "not testable: a plan without walls shows how it lies by two radios that stand";
+      why = "not testable: a plan without walls shows how it lies only by two radios that stand, or more";
     if (why.empty()) add_cause(cause, rows, places, moves, result.all);
     if (!cause.needs_own_world()) continue;
     why.empty() ? result.searched.push_back(cause.id) : result.not_tested.push_back(cause.id + ": " + why);

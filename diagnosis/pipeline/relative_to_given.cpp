@@ -36,6 +36,7 @@ inference::Unseen errors_beside(const Diagnosis& given, const VectorXd& before, 
 void begin_as_given(const Diagnosis& given, bool by_itself, const CorrectedSearch& corrected, Diagnosis& out) {
   const inference::ModelState& state = corrected.state;
   CauseEstimate& first = *out.causes.insert(out.causes.begin(), given.causes.front());
+  first.corrected_first = true;
   if (first.doubt.empty()) first.doubt = doubt_by_imitator(first, out.checks, corrected.setup.causes);
   const VectorXd left = corrected.measured - state.rows().mean(given.fitted(corrected.setup.used.rows));
   const VectorXd left_by_stream = state.rows().by_stream(left);

@@ -13,7 +13,8 @@ struct Asymmetry {
   static constexpr auto manual =
       "Between what `radio` receives and what it sends there is a difference of `loss`: links that it receives lose "
       "(1 - sending) x loss, links that it sends gain sending x loss. Half and half, the mean of both ways stays what "
-      "it was.";
+      "it was. A diagnosis holds `sending` at 0.5: of a deaf receiver (0) it tells the same `loss`, and leaves a mean "
+      "that is lower by half of it to l0 or to another cause.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),

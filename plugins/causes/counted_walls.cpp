@@ -16,7 +16,9 @@ struct CountedWalls {
   static constexpr auto summary = "the walls of a material, known by their number alone, cost level";
   static constexpr auto manual =
       "Takes away `loss` x the column walls_MATERIAL of `file`, whose rows are the links in their order: the measured "
-      "readings, as data.links lists them. For data that count the walls between two radios instead of placing them.";
+      "readings, as data.links lists them. For data that count the walls between two radios instead of placing them. "
+      "The material's own loss is not asked: `loss` is all that a counted wall takes. A diagnosis takes the column "
+      "from the readings and writes `file` itself.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("material", "material", "whose walls are counted").required(),

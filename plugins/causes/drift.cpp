@@ -14,7 +14,9 @@ struct Drift {
   static constexpr auto summary = "levels drift with time, steadily or until they settle";
   static constexpr auto manual =
       "Adds rate x s (1 - exp(-u / s)), u being the time since `start` (0 before it) and s = settling: steady for "
-      "much longer than the data last, else a warm-up. With `radio`, on all links of that radio, else on every link.";
+      "much longer than the data last, else a warm-up. With `radio`, on all links of that radio, else on every link. "
+      "A diagnosis seeks `start` from the first reading on. On a clock since 1970 a world has to write it: by default "
+      "the drift began in 1970.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "whose links; without it, all"),

@@ -15,7 +15,7 @@ struct Incidence {
   static constexpr auto manual =
       "Takes away share x L x (1 / cos a - 1) for every wall crossed, L being its loss and a the angle between link "
       "and normal, in three dimensions: with share 1 the loss grows as the way through it. The bracket is at most "
-      "`most`: very flat links find another way.";
+      "`most`: very flat links find another way. A diagnosis holds `most` at its default.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {

@@ -51,7 +51,8 @@ struct LabelsShifted {
       "moves.\n"
       "Radios that only the data name are in it, too: behind those of the world, in the order of the data.\n"
       "A radio stands if no robot carries it and all readings have it within 5 cm of its first place, in plan.\n"
-      "A station that moves in the data is not in the list.";
+      "A station that moves in the data is not in the list.\n"
+      "Of a, b, c and d `first` b puts a where b is listed, b where c is, c where d is, and d where a is.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("first", "radio", "which radio's place the first one has").required(),

@@ -23,7 +23,8 @@ struct NoiseFloorRssi {
       "Takes away share x (noise - reference) from each reading, the noise at the receiver being the column "
       "noise[dBm] of `file` (t, tx, rx and noise: two packets of one tick meet two noises; what stood last for the "
       "pair at or before a time holds, else for the receiver; the measured readings will do, and without t have to: "
-      "row for row). With share 1 the reading is a signal-to-noise ratio.";
+      "row for row). With share 1 the reading is a signal-to-noise ratio. A diagnosis holds `reference` at its "
+      "default: another one shifts all levels alike, as l0 does.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {

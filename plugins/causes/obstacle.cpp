@@ -16,7 +16,8 @@ struct Obstacle {
       "Takes away `loss` of a link through the middle of the upright cylinder about (x, y), and of one whose way "
       "through "
       "it in plan is w loss (1 - exp(-w / radius)) / (1 - exp(-2)): what is lost in it grows with the way, and waves "
-      "that go around it bound that.";
+      "that go around it bound that. It stands on the ground (z = 0). A diagnosis holds `height`: at its default, "
+      "outdoors above all radios.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),

@@ -15,7 +15,8 @@ struct PlanShifted {
   static constexpr auto manual =
       "Undoes that the listed places are the true ones moved by (east, north). `of` stations: of radios that stand,\n"
       "as in effect.labels_shifted. `of` robots: of all others. `of` walls: the walls are moved, so all radios are\n"
-      "put where they are in the walls' own coordinates.";
+      "put where they are in the walls' own coordinates. Stations listed 7 m east and 5 m south of where they stand\n"
+      "have east 7 and north -5: one listed at (17, 5) is put back at (10, 10).";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       choice("of", "stations|robots|walls", "what is listed wrongly").with(MUSTER_EACH),

@@ -26,7 +26,8 @@ struct PlanTurned {
       "the\n"
       "other diagonal: transposed_back). `of` stations: of radios that stand. `of` robots: of all others. `of` walls:\n"
       "the walls are turned, so all radios are put where they are in the walls' own coordinates. Headings turn too.\n"
-      "y changes nothing of mirrored_x, x nothing of mirrored_y.";
+      "y changes nothing of mirrored_x, x nothing of mirrored_y.\n"
+      "A station that stands at (10, 2) and is listed at (-2, 10) is turned_90 about (0, 0), and is put back.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       choice("of", "stations|robots|walls", "what is listed wrongly").with(MUSTER_EACH),

@@ -27,7 +27,7 @@ struct PowerSteps {
       "evenly between, and errors change linearly from one to the next. Readings that the world is held against, and "
       "whose powers stand in for the file's, are to have the same ones. Data in which each reading was referred to its "
       "nominal power need nothing else. What all errors share is in l0: a diagnosis leaves that of the power with most "
-      "readings at 0.";
+      "readings at 0 (of several such, the highest), and only differences between errors can be compared.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr bool keeps_only_caches = true;
   static constexpr Param params[] = {

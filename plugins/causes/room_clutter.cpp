@@ -18,7 +18,7 @@ struct RoomClutter {
       "come "
       "through it, and not beyond a bound (ITU-R P.833, section 2.1); an end above the things, at `height` or higher, "
       "is "
-      "not among them (P.2108).";
+      "not among them (P.2108). A diagnosis holds `heading` at the direction of the plan's walls.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("x", 0, -1e6, 1e6, "m", "middle, east").required().free().with(MUSTER_EAST),

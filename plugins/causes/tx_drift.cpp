@@ -15,7 +15,9 @@ struct TxDrift {
   static constexpr auto manual =
       "Adds rate x s (1 - exp(-u / s)), u being the time since `start` (0 before it) and s = settling: steady for "
       "much longer than the data last, else a warm-up. On what `radio` sends alone: a supply or an amplifier that "
-      "changes. Of a radio that only sends it is a drift: the readings are the same.";
+      "changes. Of a radio that only sends it is a drift: the readings are the same. "
+      "A diagnosis seeks `start` from the first reading on. On a clock since 1970 a world has to write it: by default "
+      "the drift began in 1970.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       reference("radio", "radio", "which radio").required(),

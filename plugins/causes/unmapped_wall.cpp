@@ -15,7 +15,8 @@ struct UnmappedWall {
       "Takes away `loss` of every link that crosses the upright wall from (x0, y0) to (x1, y1), which stands on the "
       "ground (z = 0). Waves go around its ends: over `edge` metres along the wall, half of them beyond an end, the "
       "loss "
-      "rises from nothing to all of it. With an edge of 0 it is the same as a wall element there.";
+      "rises from nothing to all of it. With an edge of 0 it is the same as a wall element there. A diagnosis holds "
+      "`height`: at its default, outdoors above all radios.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("x0", 0, -1e6, 1e6, "m", "first end, east").required().free().with(MUSTER_EAST),

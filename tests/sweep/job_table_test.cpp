@@ -98,7 +98,8 @@ TEST(JobTable, ManyProcessesMakeOne) {
       children.push_back(in_child([&] {
         ::close(start[1]);
         char none = 0;
-        if (::read(start[0], &none, 1) == 0) fill(folder, 1, {1});  // when the last writer has closed it
+        if (::read(start[0], &none, 1) != 0) ::_exit(2);  // it ends when the last writer has closed it
+        fill(folder, 1, {1});
       }));
     }
     ::close(start[0]);

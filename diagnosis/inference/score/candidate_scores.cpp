@@ -228,4 +228,22 @@ ScoredCandidate refined(const ModelState& state, const WhitenedModel& model, con
   return best;
 }
 
+ScoredCandidate refined_by_overlap(const ModelState& state, const WhitenedModel& model, const Entry& entry) {
+  const Candidate& c = *entry.candidate;
+  const WhitenedModel soft = with_less_field(state, model, thresholds::soft_field_share);
+  ScoredCandidate best{&entry, {}, {}, 0, 0, 0, false, gains_of(entry, soft)};
+  Index at = 0;
+  best.gain = best.all.maxCoeff(&at);
+  best.theta = c.design.grid[static_cast<std::size_t>(at)];
+  for (int round = 0; round < 4; ++round) {  // a simplex that has shrunk begins anew
+    const double before = best.gain;
+    best = refined(state, soft, best, true);
+    if (best.gain < before + thresholds::refine_again_gain) break;
+  }
+  best.gain = gain_of(c, model, best.columns);
+  best.evidence = state.evidence(c, best.gain, c.design.width, true);
+  best.log_p = state.log_p(c, best.gain, c.design.width, true);
+  return best;
+}
+
 }  // namespace muster::inference

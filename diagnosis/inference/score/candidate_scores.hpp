@@ -39,4 +39,8 @@ void by_evidence(std::vector<ScoredCandidate>& leads);
 ScoredCandidate refined(const ModelState& state, const WhitenedModel& model, const ScoredCandidate& lead,
                         bool from_lead_alone);
 
+// Refined in nearly white noise, where a theta gains as much as its columns overlap the best: beside a field nearly all
+// of a gain lies at edges, and a rectangle of other sides has little. Its gain is that beside the model's field.
+ScoredCandidate refined_by_overlap(const ModelState& state, const WhitenedModel& model, const Entry& entry);
+
 }  // namespace muster::inference

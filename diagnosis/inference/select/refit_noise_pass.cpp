@@ -63,40 +63,27 @@ double most_to_come(double before, double gain) {
 // Upper bound of the gain with the noise refitted: over 800 observed, none grew to more than 1.7 times as much.
 double most_once_fitted(double gain) { return thresholds::refit_at_least + thresholds::refit_factor * gain; }
 
-// Refined beside a field so weak that what lies near the best gains nearly as much. The lead where that gains no more
-// beside the model's own field.
-ScoredCandidate refined_beside_weak_field(const ModelState& state, const WhitenedModel& model,
-                                          const ScoredCandidate& lead) {
-  noise::Covariance weak = state.fit.covariance;
-  weak.theta[0] += std::log(thresholds::weak_field);
-  const WhitenedModel beside = state.whitened_model(model.design, weak);
-  const Candidate& c = lead.candidate();
-  Index at = 0;
-  ScoredCandidate other = lead;
-  other.gain = gains(c, unit_atoms(*lead.entry, beside), beside.at.residual).maxCoeff(&at);
-  other.theta = c.design.grid[static_cast<std::size_t>(at)];
-  other.columns = lead.entry->atom(at);
-  other = refined(state, beside, other, true);
-  other.gain = gain_of(c, model, other.columns);
-  if (other.gain <= lead.gain) return lead;
-  other.evidence = state.evidence(c, other.gain, c.design.width, true);
-  return other;
-}
-
-// Refines a cause whose best the grid may miss, and scores it with the noise fitted beside it.
+// Refines a cause whose best the grid may miss, and scores it with the noise fitted beside it. What has edges is found
+// by its overlap where the noise fits better beside that.
 ScoredCandidate looked_at(const ModelState& state, const WhitenedModel& model, const Eigen::MatrixXd& design,
                           ScoredCandidate lead, RememberedLeads& known) {
   const Candidate& c = lead.candidate();
   if (hides_its_best(c))
-    lead = known.worked_out(lead, [&](const ScoredCandidate& from) {
-      return c.refinement.edged ? refined_beside_weak_field(state, model, from) : refined(state, model, from, false);
-    });
+    lead = known.worked_out(lead, [&](const ScoredCandidate& from) { return refined(state, model, from, false); });
   lead.log_p = state.log_p(c, lead.gain, c.design.width, true);
-  if (state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold()) return lead;
+  if (!c.refinement.edged && state.log_p(c, most_once_fitted(lead.gain), c.design.width, true) > state.threshold())
+    return lead;
   noise::Fit fit = fit_with(state, c, noise::hstack(design, lead.columns));
+  if (c.refinement.edged) {
+    ScoredCandidate other = refined_by_overlap(state, model, *lead.entry);
+    const noise::Fit beside = fit_with(state, c, noise::hstack(design, other.columns));
+    if (beside.value < fit.value) {
+      lead = std::move(other);
+      fit = beside;
+    }
+  }
   const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-  if (c.refinement.starts > 1 &&
-      state.log_p(c, most_to_come(lead.gain, gain), c.design.width, true) < state.threshold()) {
+  if (hides_its_best(c) && state.log_p(c, most_to_come(lead.gain, gain), c.design.width, true) < state.threshold()) {
     lead = refined(state, state.whitened_model(design, fit.covariance), lead, false);
     fit = state.fitted(noise::hstack(design, lead.columns), fit.covariance, 6);
   }

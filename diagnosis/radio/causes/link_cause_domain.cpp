@@ -107,7 +107,7 @@ std::optional<Axis> LinkCauseDomain::axis_of(const muster_param& declared, const
 
 // Number of the place's sizes given by the plan: length and width of a room, or width of a strip between walls.
 std::size_t LinkCauseDomain::given_sizes(const CauseShape& shape) const {
-  if (shape.is_room() && !geometry_.rooms.empty() && !geometry_.has_hall()) return 2;
+  if (shape.is_room() && !geometry_.rooms.empty() && geometry_.halls().empty()) return 2;
   return shape.is_strip() && !geometry_.strips.empty() ? 1 : 0;
 }
 

@@ -127,7 +127,8 @@ std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeomet
     return around_radios(shape, survey, model);
   std::vector<VectorXd> rooms;
   if (shape.is_room() && !survey.rooms.empty()) rooms = rooms_of_plan(shape, survey);
-  if (!rooms.empty() && !survey.has_hall()) return rooms;
+  const std::vector<OrientedRectangle> halls = survey.halls();
+  if (!rooms.empty() && halls.empty()) return rooms;
   if (shape.is_strip() && !survey.strips.empty()) return between_walls(shape, survey);
   if (shape.place == PlaceShape::none) return start_grid(shape, {VectorXd()});
   std::vector<VectorXd> places = places_over(shape.place, survey, !stands);
@@ -135,6 +136,11 @@ std::vector<VectorXd> starts_of(const CauseShape& shape, const MeasurementGeomet
     const std::vector<VectorXd> more = through_radios(survey);
     places.insert(places.end(), more.begin(), more.end());
   }
+  if (!rooms.empty())  // elsewhere whole rooms
+    std::erase_if(places, [&](const VectorXd& place) {
+      return std::none_of(halls.begin(), halls.end(),
+                          [&](const OrientedRectangle& hall) { return hall.holds(place[0], place[1]); });
+    });
   std::vector<VectorXd> starts = start_grid(shape, places);
   starts.insert(starts.end(), rooms.begin(), rooms.end());
   return starts;

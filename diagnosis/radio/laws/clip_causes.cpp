@@ -21,14 +21,16 @@ std::vector<const Cause*> clips_of(const LawSources& s, uint32_t side, bool sile
   return causes_that(s, [&](const Cause& cause) { return clips(*cause.plugin, side, silent); });
 }
 
-// True if an instance of the world already clips there, or keeps silent even above. A receiver's default is no
-// statement: a floor near it may well be what the readings have and the world lacks.
+// True if an instance of the world already clips there, or keeps silent even above. A default does as far as readings
+// agree with it: weaker ones are what the world's receiver would not have heard.
 bool clips_at(const LawSources& s, uint32_t side, bool silent, double level, double step) {
   if (const auto stated = silent_below(s.model.simulation()); silent && stated && level <= *stated) return true;
   const auto& all = s.model.simulation().instances();
   return std::any_of(all.begin(), all.end(), [&](const auto& instance) {
-    return clips(instance->plugin(), side, silent) && (instance->plugin().cause || is_stated(*instance)) &&
-           std::abs(clip_level(*instance) - level) <= std::max(step, thresholds::same_clip);
+    if (!clips(instance->plugin(), side, silent)) return false;
+    const double there = clip_level(*instance);
+    const bool holds = instance->plugin().cause || is_stated(*instance) || level >= there - step / 2;
+    return holds && std::abs(there - level) <= std::max(step, thresholds::same_clip);
   });
 }
 

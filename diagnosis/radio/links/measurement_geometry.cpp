@@ -30,7 +30,7 @@ double direction_of_walls(const LinkModel& model) {
     c += length * std::cos(4 * std::atan2(y, x));
     s += length * std::sin(4 * std::atan2(y, x));
   }
-  constexpr double rounding = 1e-9;  // a plan along the axes is turned by nothing, and not by nearly a quarter
+  constexpr double rounding = 1e-3;  // of millimetres: a plan along the axes is not turned by nearly a quarter
   const double angle = std::atan2(s, c) / 4;
   return angle < -rounding ? angle + quarter_turn : std::max(angle, 0.0);
 }
@@ -202,13 +202,15 @@ double sampling_interval(std::vector<double> times) {
 
 }  // namespace
 
-// From the area over which radios move, or else over which they stand: a far gateway makes no yard larger.
-bool MeasurementGeometry::has_hall() const {
-  return std::any_of(rooms.begin(), rooms.end(), [&](const OrientedRectangle& room) {
-    return std::min(room.length, room.width) > thresholds::widest_room * scale;
+std::vector<OrientedRectangle> MeasurementGeometry::halls() const {
+  std::vector<OrientedRectangle> result = rooms;
+  std::erase_if(result, [&](const OrientedRectangle& room) {
+    return std::min(room.length, room.width) <= thresholds::widest_room * scale;
   });
+  return result;
 }
 
+// From the area over which radios move, or else over which they stand: a far gateway makes no yard larger.
 double scale_of(const LinkModel& model) {
   struct Area {
     Span east, north;

@@ -38,8 +38,8 @@ struct MeasurementGeometry {
   double scale = 1;
 
   bool is_outdoors() const { return scale > 1; }
-  // True if a room is a hall, of which things may fill a corner.
-  bool has_hall() const;
+  // Halls among the rooms, of which things may fill a corner.
+  std::vector<OrientedRectangle> halls() const;
 };
 
 // MeasurementGeometry::scale alone.

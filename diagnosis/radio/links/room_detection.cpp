@@ -98,20 +98,35 @@ class Raster {
 
 using WallLine = std::array<double, 4>;  // x0 y0 x1 y1, m
 
+Eigen::Vector2d end_of(const WallLine& wall, int end) {
+  return end == 0 ? Eigen::Vector2d(wall[0], wall[1]) : Eigen::Vector2d(wall[2], wall[3]);
+}
+
+Eigen::Vector2d way_of(const WallLine& wall) { return (end_of(wall, 1) - end_of(wall, 0)).normalized(); }
+
+// True if a wall across that way ends or passes there: a partition ends at it, and no doorway begins.
+bool meets_another(const std::vector<WallLine>& walls, const Eigen::Vector2d& at, const Eigen::Vector2d& along) {
+  return std::any_of(walls.begin(), walls.end(), [&](const WallLine& wall) {
+    const Eigen::Vector2d from = end_of(wall, 0), to = end_of(wall, 1), way = way_of(wall);
+    const double on = std::clamp((at - from).dot(way), 0.0, (to - from).norm());
+    return std::abs(way.dot(along)) < thresholds::in_one_line && (from + on * way - at).norm() <= overlap;
+  });
+}
+
 // Openings that are drawn as a gap between two walls in one line, for which many plans have no door.
 std::vector<WallLine> doorways(const std::vector<WallLine>& walls) {
   std::vector<WallLine> result;
-  const auto end_of = [](const WallLine& w, int end) { return Eigen::Vector2d(w[end ? 2 : 0], w[end ? 3 : 1]); };
   for (std::size_t i = 0; i < walls.size(); ++i) {
     for (std::size_t j = i + 1; j < walls.size(); ++j) {
       for (const auto& [a, b] : {std::array{0, 0}, {0, 1}, {1, 0}, {1, 1}}) {
         const Eigen::Vector2d from = end_of(walls[i], a), to = end_of(walls[j], b), gap = to - from;
         if (gap.norm() < overlap || gap.norm() > thresholds::widest_doorway) continue;
         const Eigen::Vector2d along = gap.normalized();
-        const auto goes_on = [&](const WallLine& wall, int end, double sense) {
-          return (end_of(wall, end) - end_of(wall, 1 - end)).normalized().dot(sense * along) > thresholds::in_one_line;
-        };
-        if (goes_on(walls[i], a, 1) && goes_on(walls[j], b, -1)) result.push_back({from.x(), from.y(), to.x(), to.y()});
+        const double goes_on = way_of(walls[i]).dot(along) * (a == 1 ? 1 : -1),
+                     comes = way_of(walls[j]).dot(along) * (b == 0 ? 1 : -1);
+        if (std::min(goes_on, comes) > thresholds::in_one_line && !meets_another(walls, from, along) &&
+            !meets_another(walls, to, along))
+          result.push_back({from.x(), from.y(), to.x(), to.y()});
       }
     }
   }
@@ -119,6 +134,11 @@ std::vector<WallLine> doorways(const std::vector<WallLine>& walls) {
 }
 
 }  // namespace
+
+bool OrientedRectangle::holds(double east, double north) const {
+  const double c = std::cos(angle), s = std::sin(angle), dx = east - x, dy = north - y;
+  return std::abs(c * dx + s * dy) <= length / 2 && std::abs(c * dy - s * dx) <= width / 2;
+}
 
 std::vector<Room> rooms_of(const std::vector<std::array<double, 4>>& walls, double angle,
                            const std::vector<std::array<double, 2>>& places) {

@@ -9,6 +9,8 @@ namespace muster::diagnosis {
 // A rectangle of the plan by its middle, in m and rad; its length runs along the angle.
 struct OrientedRectangle {
   double x, y, length, angle, width;
+
+  bool holds(double east, double north) const;
 };
 
 struct Room {

@@ -39,5 +39,31 @@ TEST(ExtendedWorld, ReadsThePlanThatItsWorldReads) {
   }
 }
 
+CauseEstimate at_place(const std::string& id) {
+  CauseEstimate cause;
+  cause.id = id;
+  cause.values = {{"x", "m", 3, 0, 3, 3, -10, 10}, {"y", "m", 4, 0, 4, 4, -10, 10}};
+  return cause;
+}
+
+// A place that was found in the world put right for a plan is one of that world: the stronger of both is told first,
+// but turned first is the plan.
+TEST(ExtendedWorld, WhatWasPutRightFirstStandsFirst) {
+  const Scratch scratch;
+  fs::create_directories(scratch.path() / "own");
+  const auto world = scratch.write("own/world.xml",
+                                   "<world name=\"w\" dt=\"1\" until=\"1\" seed=\"1\">\n"
+                                   "  <station name=\"a\" at=\"0 5 0.5\"/>\n  <radio.multiwall/>\n</world>\n");
+  Diagnosis found;
+  found.causes = {at_place("effect.tx_misplaced"), at_place("effect.plan_turned")};
+  found.causes[0].row_parameter = "radio";
+  found.causes[0].row = "a";
+  found.causes[1].words = {{"of", "stations"}, {"how", "mirrored_x"}};
+  found.causes[1].corrected_first = true;
+  const std::string written = contents(write_extended_world(found, world, scratch.path() / "out"));
+  ASSERT_NE(written.find("<effect.tx_misplaced"), written.npos);
+  EXPECT_LT(written.find("<effect.plan_turned"), written.find("<effect.tx_misplaced")) << written;
+}
+
 }  // namespace
 }  // namespace muster::diagnosis

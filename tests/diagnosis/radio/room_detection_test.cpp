@@ -57,6 +57,14 @@ TEST(RoomDetection, AGapInALineOfWallsIsADoorway) {
   EXPECT_EQ(rooms_of(walls, angle, places).size(), 1u);
 }
 
+// A corridor 2 m wide, and on either side of it a partition that ends at its wall: both in one line by chance.
+TEST(RoomDetection, PartitionsOnEitherSideOfACorridorAreNoDoorway) {
+  const std::vector<std::array<double, 4>> walls{wall(0, 0, 12, 0),   wall(0, 4, 12, 4), wall(0, 6, 12, 6),
+                                                 wall(0, 10, 12, 10), wall(0, 0, 0, 10), wall(12, 0, 12, 10),
+                                                 wall(5, 0, 5, 4),    wall(5, 6, 5, 10)};
+  EXPECT_EQ(rooms_of(walls, angle, {turned(2, 5), turned(10, 5)}).size(), 1u);
+}
+
 TEST(RoomDetection, FindsNoneWithoutWalls) { EXPECT_TRUE(rooms_of({}, 0, {{1, 1}}).empty()); }
 
 // Cells grow with the plan, up to their maximum number.
