@@ -81,8 +81,13 @@ void doubt_where_lost(const MissingData& missing, const std::vector<Cause>& caus
 }  // namespace
 
 void in_order(Diagnosis& out) {
+  // Where nothing else was found in the given world, nothing was left out there, and all are compared by what they
+  // explain.
+  const bool by_explained = std::any_of(out.causes.begin(), out.causes.end(),
+                                        [](const CauseEstimate& c) { return c.corrected_first && !c.held_out; });
   // Where each radio has one place, a place that is left out takes all with it that would tell of its radio.
   const auto gain = [&](const CauseEstimate& c) {
+    if (by_explained) return 0.0;
     double result = c.held_out ? c.held_out->gain : 0;
     for (const inference::Elsewhere& e : c.elsewhere) {
       if (out.time_unit > 0) result = std::max(result, e.held_out.gain);

@@ -51,7 +51,7 @@ class Diagnoser {
   Library::SearchPath plugins_;
 };
 
-// By status, sure ones first, then by what they gain.
+// By status, sure ones first, then by what they gain in held-out data, or explain.
 void in_order(Diagnosis& found);
 
 // With a note of that.

@@ -1,5 +1,5 @@
 // Faults of maps and logs: each is named by its cause, alone, and with the right rows and choices.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ TEST(Hypotheses, StayWithinTheBoundsOfTheirCause) {
 }
 
 // What the map has wrong and what a radio has, each hide the other: without levels of the radios both of these logs
-// were another shadowing. What gains more stands first, though it was found in the world put right for the other.
+// were another shadowing. The stronger one stands first, though all else is found in the world put right for the map.
 TEST(OwnWorld, AFaultOfTheMapIsFoundBesideAWeakStation) {
   for (const auto& [fault, seed, weak] : {std::tuple(Fault::swapped, 1u, 2u), std::tuple(Fault::mirrored, 2u, 0u)}) {
     const Scratch scratch;
@@ -112,10 +112,11 @@ TEST(OwnWorld, AFaultOfTheMapIsFoundBesideAWeakStation) {
     maker.weaken(weak, 15);
     const DamagedLog log = maker.write(scratch);
     const Diagnosis found = diagnose(log.world, log.table, plugins);
-    EXPECT_EQ(names_in_words(named_causes(found)),
-              "effect.tx_offset radio/s" + std::to_string(weak + 1) + ", " + log.truth);
-    ASSERT_TRUE(found.causes.at(0).held_out && found.causes.at(1).held_out);
-    EXPECT_GT(found.causes[0].held_out->gain, found.causes[1].held_out->gain);
+    const std::string offset = "effect.tx_offset radio/s" + std::to_string(weak + 1);
+    EXPECT_THAT(names_in_words(named_causes(found)),
+                testing::AnyOf(offset + ", " + log.truth, log.truth + ", " + offset));
+    ASSERT_EQ(found.causes.size(), 2u);
+    EXPECT_GT(found.causes[0].lambda, found.causes[1].lambda);
   }
 }
 

@@ -51,7 +51,7 @@ TEST(BlockageOfTheOnlyLink, IsNamedBesideAStepAndTheExtendedWorldHoldsIt) {
   const Scratch scratch;
   const std::filesystem::path data = walked_through(scratch), extended = scratch / "extended";
   Diagnosis found = diagnose(hall, data, plugins);
-  ASSERT_EQ(names_in_words(named_causes(found)), "effect.people radio/base radio/rover, effect.step all");
+  ASSERT_EQ(names_in_words(named_causes(found)), "effect.step all, effect.people radio/base radio/rover");
   for (const auto& [path, value] : found.parameters) EXPECT_EQ(path.find("people"), path.npos) << path;
   found.loop = closed_loop(found, hall, data, extended, plugins);
   EXPECT_LT(found.loop->mean_difference, 0.1);
