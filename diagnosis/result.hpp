@@ -50,7 +50,7 @@ struct CauseEstimate {
   std::vector<inference::Elsewhere> elsewhere;  // its gains on held-out radios and runs, if it concerns several
   std::vector<inference::Alternative> alternatives;
   std::optional<OneStation> one_station{};
-  std::string doubt{};  // reason why it is uncertain, whatever its gain; empty: none
+  std::string doubt{};           // reason why it is uncertain, whatever its gain; empty: none
   bool corrected_first = false;  // all others were found in the world put right for it
 
   bool changes_in_time() const;
