@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/calibration/lost_amid_heard.hpp"
 #include "diagnosis/inference/noise/dense_solvers.hpp"
 #include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -86,29 +87,35 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
 
 // A receiver's floor is one of what it received.
 MissingData missing_from(const Readings& readings, const Search& search, double sigma) {
-  return missing_data(readings.received(readings.rssi), readings.received(search.model.expected()), sigma,
-                      silent_below(search.model.simulation()));
+  const Eigen::VectorXd received = readings.received(readings.rssi);
+  return missing_data(received, readings.received(search.model.expected()), sigma,
+                      silent_below(search.model.simulation(), received));
 }
 
-// Fits with all missing readings below the floor.
-void fit_censored(Readings& readings, double floor, Minimum& fit, const Mean& mean, const Box& box) {
+// Fits with missing readings below the floor, except where those about them are far above it.
+void fit_censored(Readings& readings, double floor, Minimum& fit, const Search& search, const Box& box) {
   readings.floor = floor;
+  std::vector<LinkPlace> links;
+  for (const auto& ends : search.model.ends()) links.push_back(place_of(ends));
+  const Mean mean = search.mean();
+  const std::vector<Eigen::Index> otherwise = lost_amid_heard(readings, links, mean(fit.parameters), fit.sigma);
   for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
-    if (std::isnan(readings.rssi[i])) readings.censored.push_back(i);
+    if (std::isnan(readings.rssi[i]) && !std::binary_search(otherwise.begin(), otherwise.end(), i))
+      readings.censored.push_back(i);
   }
   fit = least_squares(readings, mean, fit.parameters, box);
 }
 
 // Where many are lost, what was heard at low levels are the stronger ones, to which a fit of them alone is too near to
 // see the floor. Where readings end at the floor that the world states it is asked for beside a fit that knows it, too.
-void look_for_stated_floor(Fit& fit, const Search& search, const Mean& mean, const Box& box) {
-  const auto stated = silent_below(search.model.simulation());
+void look_for_stated_floor(Fit& fit, const Search& search, const Box& box) {
+  const auto stated = silent_below(search.model.simulation(), fit.readings.received(fit.readings.rssi));
   if (!stated || fit.missing.censored || !fit.missing.rises() ||
       std::abs(fit.missing.floor - *stated) > thresholds::near_stated_floor)
     return;
   Readings readings = fit.readings;
   Minimum censored = fit.least_squares;
-  fit_censored(readings, fit.missing.floor, censored, mean, box);
+  fit_censored(readings, fit.missing.floor, censored, search, box);
   search.set(censored.parameters);
   const MissingData missing = missing_from(readings, search, censored.sigma);
   if (missing.censored && censored.sigma < thresholds::wider_beside_floor * fit.least_squares.sigma)
@@ -124,8 +131,8 @@ void solve(Fit& fit, const Search& search) {
   fit.least_squares = least_squares(fit.readings, mean, search.start(), box);
   search.set(fit.least_squares.parameters);
   fit.missing = missing_from(fit.readings, search, fit.least_squares.sigma);
-  look_for_stated_floor(fit, search, mean, box);
-  if (fit.missing.censored) fit_censored(fit.readings, fit.missing.floor, fit.least_squares, mean, box);
+  look_for_stated_floor(fit, search, box);
+  if (fit.missing.censored) fit_censored(fit.readings, fit.missing.floor, fit.least_squares, search, box);
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
   if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another local minimum: descend there as well
     fit.least_squares = least_squares(fit.readings, mean, fit.search.parameters, box);

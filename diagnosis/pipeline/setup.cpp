@@ -63,6 +63,13 @@ LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, boo
   return {std::move(readings), limits, observed.run, places_known, places_known ? drawn_correlation(model) : nullptr};
 }
 
+// Levels as they were received, before they were referred to one power.
+VectorXd received_in(const Dataset& data) {
+  const VectorXd levels = Eigen::Map<const VectorXd>(data.rssi.data(), static_cast<Index>(data.rssi.size()));
+  if (data.referred.empty()) return levels;
+  return levels + Eigen::Map<const VectorXd>(data.referred.data(), levels.size());
+}
+
 CauseSearch candidates_of(const DiagnosisSetup& at, const LinkSearchWorld& world) {
   CauseSearch found = cause_candidates(at.causes, LinkCauseDomain(at.model, at.data, at.used.rows, at.rows),
                                        {at.run, at.used.rows}, at.base.slopes(at.used.rows, Eigen::all), at.rows);
@@ -97,8 +104,9 @@ std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws
 // what the world's receiver can hear end nowhere, and those of a better receiver end elsewhere.
 std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
   if (at.fitted.missing.count > 0) return {};
-  const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation());
-  const double weakest = at.fitted.readings.received(at.fitted.readings.rssi).minCoeff();
+  const VectorXd received = at.fitted.readings.received(at.fitted.readings.rssi);
+  const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation(), received);
+  const double weakest = received.minCoeff();
   return level && std::abs(weakest - *level) <= thresholds::reaches_a_floor ? level : std::nullopt;
 }
 
@@ -151,7 +159,7 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       data(read_dataset(tables->read(table))),
       receiver(receiver_checks(data)),
       model(world, table, plugins, tables),
-      draws(world, table, plugins, tables, receiver.step),
+      draws(world, table, plugins, tables, receiver.step, unstated_floors(model.simulation(), received_in(data))),
       causes(causes_on(plugins)),
       notes_of_places(data.has_places() ? check_places(model, data) : std::vector<std::string>{}),
       fitted(fit(model, data, hold_causes(model))),

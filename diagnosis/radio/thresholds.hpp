@@ -174,6 +174,13 @@ inline constexpr double rising_errors = 5;
 // standard deviations; by which a shadow that the model does not know may be deeper than one it knows; chosen;
 // Survey.LossesBelowTheStatedFloorAreNoOtherFloor
 inline constexpr double deep_shadow = 4;
+// m; way of both ends, within which readings of a link tell why one beside them was lost; chosen;
+// LostAmidHeard.IsNoBound
+inline constexpr double beside_a_loss = 2;
+// readings; nearest to it, all of which but one must be heard; chosen; LostAmidHeard.IsNoBound
+inline constexpr std::size_t neighbours_of_a_loss = 6;
+// standard deviations; above a floor, where nothing is lost for its level; chosen; LostAmidHeard.NearTheFloorIsABound
+inline constexpr double far_above_floor = 3;
 // log share; of readings that a receiver reads below its floor, as outliers; chosen;
 // MissingData.NoFloorIsAboveAReadingThatWasReceived
 inline constexpr double log_share_below_a_floor = -7;
@@ -186,7 +193,8 @@ inline constexpr double censored_share = 0.5;
 inline constexpr double independent_near = 10;
 // dB; above a floor, where readings must be as many as expected; chosen; none
 inline constexpr double above_floor = 3;
-// dB; of the weakest reading above the world's own floor, to take the readings for those that it leaves; chosen; none
+// dB; of the weakest reading above the world's own floor, to take the readings for those that it leaves; chosen;
+// StatedFloor.ADefaultHoldsWhereReadingsAreLostBelowIt
 inline constexpr double reaches_a_floor = 1;
 // share; of the readings that a floor gathers closely above it, which there must be; chosen;
 // Truncation.OfMeansThatAreTooLowIsNotAbrupt

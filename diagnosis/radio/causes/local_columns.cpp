@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Columns = std::function<Eigen::MatrixXd(const VectorXd&)>;
 
-constexpr double beyond = 0.5;  // m: half a wall's widest edge, with loss beyond its ends
+constexpr double beyond_ends = 0.5;  // m: half a wall's widest edge, with loss beyond its ends
 constexpr double moves = 0.75;  // m, to every side
 
 struct Area {
@@ -77,7 +77,7 @@ std::vector<VectorXd> corners(const VectorXd& theta) {
 Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const LinkReadings& readings,
                      const Simulate& simulate) {
   const Columns& all = cause.candidate.design.columns;
-  const Area area = about(*cause.shape, theta, beyond + moves);
+  const Area area = about(*cause.shape, theta, beyond_ends + moves);
   std::vector<Index> near;
   for (Index i = 0; i < readings.size(); ++i) {
     if (area.met_by(readings.tx_at.col(i), readings.rx_at.col(i))) near.push_back(i);
@@ -87,7 +87,7 @@ Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const L
   const Columns columns = simulated->at(cause).design.columns;
   Columns result = [=, shape = cause.shape, many = readings.size()](const VectorXd& t) -> Eigen::MatrixXd {
     (void)simulated;  // kept alive for `columns`
-    if (!area.holds(about(*shape, t, beyond))) return all(t);
+    if (!area.holds(about(*shape, t, beyond_ends))) return all(t);
     const Eigen::MatrixXd here = columns(t);
     Eigen::MatrixXd there = Eigen::MatrixXd::Zero(many, here.cols());
     there(near, Eigen::all) = here;

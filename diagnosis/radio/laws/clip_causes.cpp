@@ -21,10 +21,14 @@ std::vector<const Cause*> clips_of(const LawSources& s, uint32_t side, bool sile
   return causes_that(s, [&](const Cause& cause) { return clips(*cause.plugin, side, silent); });
 }
 
+std::optional<double> stated_floor_of(const LawSources& s) {
+  return silent_below(s.model.simulation(), s.fit.readings.received(s.fit.readings.rssi));
+}
+
 // True if an instance of the world already clips there, or keeps silent even above. A default does as far as readings
 // agree with it: weaker ones are what the world's receiver would not have heard.
 bool clips_at(const LawSources& s, uint32_t side, bool silent, double level, double step) {
-  if (const auto stated = silent_below(s.model.simulation()); silent && stated && level <= *stated) return true;
+  if (const auto stated = stated_floor_of(s); silent && stated && level <= *stated) return true;
   const auto& all = s.model.simulation().instances();
   return std::any_of(all.begin(), all.end(), [&](const auto& instance) {
     if (!clips(instance->plugin(), side, silent)) return false;
@@ -83,7 +87,7 @@ void add_pile(const LawSources& s, uint32_t side, const Clip& pile, double step,
 // True if the world's own receiver hears nothing that is about as weak: a reading in a shadow that is deeper than the
 // model knows is lost to that. Only where levels also end abruptly is the floor another one.
 bool lost_below_the_stated_floor(const LawSources& s, double floor) {
-  const std::optional<double> stated = silent_below(s.model.simulation());
+  const std::optional<double> stated = stated_floor_of(s);
   const noise::Covariance& noise = s.state.fit.covariance;
   const double scatter = std::sqrt(noise.field_variance() + noise.reading_variance());
   const double below = stated ? floor - *stated : 0;
@@ -224,9 +228,8 @@ bool add_silence_beside(const LawSources& s, const VectorXd& mean, Diagnosis& fo
   const double squares = heard.select((rssi - mean).array().square(), 0).sum();
   const double sigma = std::sqrt(squares / static_cast<double>(heard.count()));
   const Readings& readings = s.fit.readings;
-  return add_silence(
-      s, missing_data(readings.received(rssi), readings.received(mean), sigma, silent_below(s.model.simulation())),
-      found);
+  return add_silence(s, missing_data(readings.received(rssi), readings.received(mean), sigma, stated_floor_of(s)),
+                     found);
 }
 
 }  // namespace muster::diagnosis

@@ -1,6 +1,7 @@
 // What the world's own plugins clip.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,9 +16,10 @@ bool clips(const muster_plugin& plugin, uint32_t side, bool silent);
 double clip_level(const Instance& instance);
 // True if the world writes that level, which is no default then.
 bool is_stated(const Instance& instance);
-// Level that the world writes, dBm, below which an instance of it lets nothing through. A default is no statement.
-std::optional<double> silent_below(const Simulation& simulation);
+// Level that the world writes, dBm, below which an instance of it lets nothing through. A default is no statement,
+// except where `received` [dBm, NaN: lost] ends there: some is lost, and the weakest that was heard lies at it.
+std::optional<double> silent_below(const Simulation& simulation, const Eigen::VectorXd& received);
 // Paths of the levels of other such instances, with the lowest that each may be.
-std::map<std::string, double> unstated_floors(const Simulation& simulation);
+std::map<std::string, double> unstated_floors(const Simulation& simulation, const Eigen::VectorXd& received);
 
 }  // namespace muster::diagnosis

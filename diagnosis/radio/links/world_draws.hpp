@@ -16,9 +16,10 @@ struct WorldDraw {
 
 class WorldDraws {
  public:
-  // `step`: dB between the levels that the data record; 0: all are.
+  // `step`: dB between the levels that the data record; 0: all are. `floors`: levels by path that the data refute, and
+  // others instead.
   WorldDraws(std::filesystem::path world, std::filesystem::path data, Library::SearchPath plugins,
-             std::shared_ptr<TableCache> tables, double step);
+             std::shared_ptr<TableCache> tables, double step, std::map<std::string, double> floors);
 
   // `values`: parameters by path; `field`: of its shadowing, as declared if it has no size. Throws Error.
   WorldDraw draw(uint64_t number, const std::map<std::string, double>& values, const noise::StatedField& field) const;
@@ -28,6 +29,7 @@ class WorldDraws {
   Library::SearchPath plugins_;
   std::shared_ptr<TableCache> tables_;
   double step_;
+  std::map<std::string, double> floors_;
 };
 
 }  // namespace muster::diagnosis

@@ -41,25 +41,50 @@ TEST(StatedFloor, ReadingsThatEndThereAreLostBelowIt) {
   EXPECT_NEAR(parameter(fitted, "radio.multiwall/n").value, 3.5, 0.6);
 }
 
+constexpr const char* table_of_two =
+    "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n0,a,b,0,0,1,900,0,1,-131\n"
+    "1,a,b,0,0,1,950,0,1,-133\n";
+
+std::string two_stations(const std::string& receiver) {
+  return "<world name=\"w\" dt=\"0.1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
+         "<station name=\"b\" at=\"900 0 1\"/><radio.multiwall tx_power=\"0\" l0=\"40\" n=\"3\"/>"
+         "<radio.fading shadowing=\"2\" per_reading=\"true\"/>" +
+         receiver + "</world>\n";
+}
+
 // A receiver that the world does not write hears what was measured, however weak that is.
 TEST(StatedFloor, ADefaultIsNone) {
   const Scratch scratch;
-  const std::string table =
-      "t[s],tx,rx,tx_x[m],tx_y[m],tx_z[m],rx_x[m],rx_y[m],rx_z[m],rssi[dBm]\n0,a,b,0,0,1,900,0,1,-131\n"
-      "1,a,b,0,0,1,950,0,1,-133\n";
-  const auto file = scratch.write("data.csv", table);
+  const auto file = scratch.write("data.csv", table_of_two);
   for (const bool is_written : {false, true}) {
-    const auto world = scratch.write(
-        "world.xml", fmt::format("<world name=\"w\" dt=\"0.1\" until=\"1\"><station name=\"a\" at=\"0 0 1\"/>"
-                                 "<station name=\"b\" at=\"900 0 1\"/><radio.multiwall tx_power=\"0\" l0=\"40\" "
-                                 "n=\"3\"/><radio.fading shadowing=\"2\" per_reading=\"true\"/>{}</world>\n",
-                                 is_written ? "<radio.receiver sensitivity=\"-95\"/>" : ""));
+    const auto world =
+        scratch.write("world.xml", two_stations(is_written ? "<radio.receiver sensitivity=\"-95\"/>" : ""));
     const LinkModel model(world, file, plugins);
-    EXPECT_EQ(silent_below(model.simulation()).has_value(), is_written);
-    EXPECT_EQ(unstated_floors(model.simulation()).empty(), is_written);
-    const WorldDraw draw = WorldDraws(world, file, plugins, std::make_shared<TableCache>(), 1).draw(3, {}, {});
+    const Eigen::Vector2d received(-131, -133);
+    EXPECT_EQ(silent_below(model.simulation(), received).has_value(), is_written);
+    const auto floors = unstated_floors(model.simulation(), received);
+    EXPECT_EQ(floors.empty(), is_written);
+    const WorldDraw draw = WorldDraws(world, file, plugins, std::make_shared<TableCache>(), 1, floors).draw(3, {}, {});
     EXPECT_EQ(draw.drawn.allFinite(), !is_written);
   }
+}
+
+TEST(StatedFloor, ADefaultHoldsWhereReadingsAreLostBelowIt) {
+  const Scratch scratch;
+  const auto file = scratch.write("data.csv", table_of_two);
+  const LinkModel model(scratch.write("world.xml", two_stations("")), file, plugins);
+  const Simulation& world = model.simulation();
+  const double none = std::nan("");
+  const auto floor = [&](const Eigen::Vector3d& received) {
+    EXPECT_EQ(unstated_floors(world, received).empty(), silent_below(world, received).has_value());
+    return silent_below(world, received);
+  };
+  EXPECT_EQ(floor({-60, none, -94.6}), -95);
+  EXPECT_EQ(floor({-60, none, -95}), -95);
+  EXPECT_EQ(floor({-60, none, -92}), std::nullopt);    // nothing says that the loss lies below
+  EXPECT_EQ(floor({-60, none, -97}), std::nullopt);    // a receiver that hears more
+  EXPECT_EQ(floor({-60, -80, -95}), std::nullopt);     // nothing is lost
+  EXPECT_EQ(floor({none, none, none}), std::nullopt);  // nothing is heard
 }
 
 }  // namespace

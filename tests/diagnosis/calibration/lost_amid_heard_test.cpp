@@ -1,0 +1,73 @@
+// Readings that were lost for another reason than a receiver's floor.
+#include "diagnosis/calibration/lost_amid_heard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace muster::diagnosis {
+namespace {
+
+// A robot drives 40 m away from a station, a reading a metre: from -60 to -99 dBm, and the receiver's floor is -90.
+struct Drive {
+  Readings readings{.rssi = Eigen::VectorXd::LinSpaced(40, -60, -99), .floor = -90};
+  std::vector<LinkPlace> links;
+  Eigen::VectorXd mean = readings.rssi;
+
+  explicit Drive(double apart = 0.25) {
+    for (int i = 0; i < 40; ++i) links.push_back({{0, 0, 1}, {1 + apart * i, 0, 1}, 0, 1});
+    readings.rssi = (readings.rssi.array() < readings.floor).select(std::nan(""), readings.rssi);
+  }
+  void lose(std::initializer_list<Eigen::Index> rows) {
+    for (const Eigen::Index row : rows) readings.rssi[row] = std::nan("");
+  }
+  std::vector<Eigen::Index> otherwise() const { return lost_amid_heard(readings, links, mean, 3); }
+};
+
+TEST(LostAmidHeard, IsNoBound) {
+  Drive drive;
+  EXPECT_TRUE(drive.otherwise().empty());
+  drive.lose({0, 4, 12});
+  EXPECT_EQ(drive.otherwise(), (std::vector<Eigen::Index>{0, 4, 12}));
+}
+
+TEST(LostAmidHeard, NearTheFloorIsABound) {
+  Drive drive;
+  drive.lose({26});  // at -86 dBm
+  EXPECT_TRUE(drive.otherwise().empty());
+}
+
+// Behind a wall that the world does not know the level is below the floor, and all readings are lost there.
+TEST(LostAmidHeard, ManyBesideEachOtherAreBounds) {
+  Drive drive;
+  drive.lose({8, 9, 10, 11, 12});
+  EXPECT_TRUE(drive.otherwise().empty());
+}
+
+// The level there is what the neighbours say, not what the model expects.
+TEST(LostAmidHeard, BesideWeakReadingsIsABound) {
+  Drive drive;
+  drive.readings.rssi.segment(2, 12).array() -= 24;
+  drive.lose({8});
+  EXPECT_TRUE(drive.otherwise().empty());
+}
+
+TEST(LostAmidHeard, FarFromOthersMayHaveAShadowOfItsOwn) {
+  Drive drive(3);
+  drive.lose({8});
+  EXPECT_TRUE(drive.otherwise().empty());
+}
+
+// Of readings of a link that stands those next to it in the log count; another link's do not.
+TEST(LostAmidHeard, IsAskedOfItsOwnLink) {
+  Drive drive(0);
+  drive.lose({4});
+  EXPECT_EQ(drive.otherwise().size(), 1u);
+  for (std::size_t i = 0; i < drive.links.size(); i += 2) drive.links[i].radio_a = 2;
+  drive.readings.rssi.setConstant(-60);
+  for (Eigen::Index i = 0; i < 40; i += 2) drive.readings.rssi[i] = std::nan("");
+  EXPECT_TRUE(drive.otherwise().empty());
+}
+
+}  // namespace
+}  // namespace muster::diagnosis
