@@ -188,6 +188,7 @@ struct Diagnosis {
   std::vector<Eigen::Index> used;               // rows of the table used in the search
   std::optional<double> end;                    // dBm; a floor below which readings are missing from the table
   Eigen::VectorXd fitted;                       // mean of the world as given, fitted, at every row of the table, dBm
+  Eigen::VectorXd levels;                       // of the readings used, dBm; of a censored one, a draw beyond its bound
   std::map<std::string, double> parameters;     // of the world, refitted beside the causes
   std::vector<WorldValue> world_values;         // the same with their uncertainty
   std::vector<inference::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn

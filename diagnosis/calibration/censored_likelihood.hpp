@@ -16,7 +16,9 @@ struct Readings {
   double floor = 0;                      // dBm, of what was received
   Eigen::VectorXd referred{};            // dB, taken off each row to refer it to one power; empty: nothing was
 
-  double floor_of(Eigen::Index row) const { return referred.size() ? floor - referred[row] : floor; }
+  // A level that was received in that row, referred to the one power.
+  double referred_to(double level, Eigen::Index row) const { return referred.size() ? level - referred[row] : level; }
+  double floor_of(Eigen::Index row) const { return referred_to(floor, row); }
   // Referred levels as they were received.
   Eigen::VectorXd received(const Eigen::VectorXd& levels) const {
     return referred.size() ? Eigen::VectorXd(levels + referred) : levels;

@@ -70,8 +70,10 @@ inline constexpr double edge_share = 1.0 / 3;
 inline constexpr double excluded_nats = 3;
 // nats; by which a family without the columns may be worse in the marginal p-value; chosen; none
 inline constexpr double hopeless_start_nats = 6;
-// factor; by which measured readings vary more than imputed ones; measured; none
-inline constexpr double imputed_spread = 1.15;
+// rounds; in which censored readings are drawn and the noise is fitted to them; measured; CensoredRun.IsSilent
+inline constexpr int rounds_of_censored = 5;
+// sweeps; of the Gibbs sampler in each; measured; CensoredDraws.HaveTheMomentsOfTheirDistribution
+inline constexpr uint64_t sweeps_of_censored = 6;
 // standard deviations; distance from a clip at which a reading is clear of it; chosen;
 // Search.NoFalseExponentOrDualSlopeForAFloor
 inline constexpr double clear_of_clip = 1.5;

@@ -183,6 +183,7 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
   out.elsewhere = result.elsewhere;
   out.used = setup_.used.rows;
   out.readings = setup_.used.rows.size();
+  out.levels = state.measured() + setup_.base.offset()(setup_.used.rows);
   out.rows = state.rows().size();
   out.row_limits = setup_.layout->limits();
   const VectorXd coefficients = result.base_coefficients.cwiseMax(setup_.base.lower).cwiseMin(setup_.base.upper);

@@ -38,7 +38,8 @@ std::ptrdiff_t numbers_of(const muster_plugin& plugin) {
 
 class Judge {
  public:
-  Judge(DiagnosisSetup& setup, const Diagnosis& found) : s_(setup), found_(found), worlds_(setup, found.time_unit) {}
+  Judge(DiagnosisSetup& setup, const Diagnosis& found)
+      : s_(setup), found_(found), worlds_(setup, found.time_unit, found.levels) {}
 
   OwnWorldVerdict verdict() {
     const Hypotheses hypotheses = hypotheses_of(s_, found_);

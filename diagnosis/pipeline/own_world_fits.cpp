@@ -61,22 +61,17 @@ VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) 
   return result;
 }
 
-OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit)
+OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit, const VectorXd& levels)
     : s_(setup), moved_(setup.model), scale_(scale_of(setup.model)), time_unit_(time_unit) {
-  const ObservedLevels levels = observed_levels(s_.data, s_.receiver, s_.fitted.readings, s_.used.rows);
-  std::vector<Index> known;
-  for (std::size_t i = 0; i < s_.used.rows.size(); ++i) {
-    if (levels.bounds.known.empty() || levels.bounds.known[i] == noise::Known::value)
-      known.push_back(static_cast<Index>(i));
-  }
-  const std::size_t every = std::max<std::size_t>(1, known.size() / thresholds::own_world_readings);
+  const std::size_t all = s_.used.rows.size();
+  const std::size_t every = std::max<std::size_t>(1, all / thresholds::own_world_readings);
   const Stream any(key_of("readings of own worlds"));  // each so manieth would be of one link where links take turns
-  for (std::size_t first = 0; first + every <= known.size(); first += every) {
+  for (std::size_t first = 0; first + every <= all; first += every) {
     const std::size_t i = first + static_cast<std::size_t>(any.uniform(first) * static_cast<double>(every));
-    kept_.push_back(s_.used.rows[static_cast<std::size_t>(known[i])]);
-    of_used_.push_back(known[i]);
+    kept_.push_back(s_.used.rows[i]);
+    of_used_.push_back(static_cast<Index>(i));
   }
-  y_ = levels.measured(of_used_);
+  y_ = levels(of_used_);
   // What each radio sends, or each hears where one sends.
   const bool of_senders = s_.data.tx.levels.size() > 1;
   for (const Index row : kept_)

@@ -41,8 +41,9 @@ struct Likelihood {
 class OwnWorldFits {
  public:
   // The model is at the setup's fitted parameters as long as this lives, but while a world is fitted.
-  // `time_unit`: of a diagnosis whose errors are correlated over time (Diagnosis::time_unit), s; else 0.
-  OwnWorldFits(DiagnosisSetup& setup, double time_unit);
+  // `time_unit`: of a diagnosis whose errors are correlated over time (Diagnosis::time_unit), s; else 0. `levels`: of
+  // the readings used, dBm; what was heard alone would be the stronger ones.
+  OwnWorldFits(DiagnosisSetup& setup, double time_unit, const Eigen::VectorXd& levels);
 
   const std::vector<Eigen::Index>& rows() const { return kept_; }   // of the table, of the readings
   const Eigen::VectorXd& measured() const { return y_; }            // dBm, there

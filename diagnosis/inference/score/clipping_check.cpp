@@ -28,8 +28,7 @@ bool separable_from_clipping(const ModelState& state, const noise::Covariance& c
                              const Eigen::MatrixXd& design, const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd both = noise::hstack(design, columns);
   const Eigen::VectorXd predicted = both * state.whitened_model(both, covariance).coefficients(both.cols());
-  const double sd = thresholds::imputed_spread *
-                    std::sqrt((state.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
+  const double sd = std::sqrt((state.y() - predicted).squaredNorm() / static_cast<double>(predicted.size()));
   const auto [low, high] = range_of(state.problem());
   std::vector<Index> clear;
   for (Index i = 0; i < predicted.size(); ++i) {

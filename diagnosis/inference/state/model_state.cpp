@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "diagnosis/inference/noise/censored_draws.hpp"
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/noise/exact_covariance.hpp"
 #include "diagnosis/inference/noise/over_time.hpp"
@@ -110,6 +111,14 @@ ModelState::ModelState(const Problem& problem, const Options& options)
       normals_(normals_of(rows_.size(), options.nulls, options.seed)) {
   impute(6);
   families = noise::fit_families(field_, y_, base_, options_.prior);
+  fit = families[0];
+  if (problem_.bounds.any()) {
+    for (int round = 0; round < thresholds::rounds_of_censored; ++round) {
+      draw_censored();
+      refit();
+    }
+    families = noise::fit_families(field_, y_, base_, options_.prior);
+  }
   for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
   for (const Candidate& candidate : problem.smooths) entries_.push_back(entry(candidate));
   fixed_ = entries_.size();
@@ -185,6 +194,19 @@ void ModelState::impute(int rounds) {
                              problem_.bounds.changes() ? design_of_readings() : problem_.base, rounds);
   if (aside_.size() > 0) measured_ -= aside_;
   y_ = rows_.mean(measured_);
+  if (!families.empty() && problem_.bounds.any()) draw_censored();
+}
+
+void ModelState::draw_censored() {
+  const Eigen::MatrixXd at_readings = design_of_readings(), at_rows = design();
+  const noise::Whitener& whitener = whitener_at(fit.covariance);
+  const Eigen::VectorXd readings = aside_.size() > 0 ? Eigen::VectorXd(problem_.measured - aside_) : problem_.measured;
+  const noise::CensoredDraws draws(readings, problem_.bounds, rows_, field_, whitener);
+  for (uint64_t sweep = 0; sweep < thresholds::sweeps_of_censored; ++sweep) {
+    const noise::Whitened at = noise::whitened(whitener, y_, at_rows, options_.prior);
+    draws.sweep(sweep, at_readings * at.basis.coefficients(at.basis.q.transpose() * at.y, at_rows.cols()), measured_);
+    y_ = rows_.mean(measured_);
+  }
 }
 
 Eigen::MatrixXd ModelState::units_of(const std::vector<Index>& rows) const {

@@ -95,7 +95,7 @@ class ModelState {
   const Eigen::VectorXd& measured() const { return measured_; }  // the readings whose row means y holds
   // Of every reading, by the model with all its terms.
   Eigen::VectorXd mean_of_readings() const;
-  // Imputes censored readings anew from the current model.
+  // Imputes censored readings anew from the current model: draws of theirs, once the noise is known.
   void impute(int rounds);
   // Has rows count as what all others let expect of them. `model`: the present one, without them.
   void set_aside(const std::vector<Index>& rows, const WhitenedModel& model);
@@ -142,6 +142,7 @@ class ModelState {
   Eigen::MatrixXd design_of_readings() const;
   noise::Field field_of(const noise::Rows& rows) const;
   noise::Sites sites_of(const noise::Rows& rows) const;
+  void draw_censored();
   void correlate_over_time();
   Eigen::MatrixXd likeliest_in_time() const;
   void climb(const Candidate& candidate, const WhitenedModel& model, Eigen::VectorXd& theta) const;

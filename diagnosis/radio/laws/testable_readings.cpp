@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
@@ -68,16 +69,18 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd filled = left.array().isNaN().select(0, left);
   const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
-  if (!s.state.problem().bounds.any()) return result;
+  const Readings& readings = s.fit.readings;
+  const std::optional<double> stated = silent_below(s.model.simulation(), readings.received(readings.rssi));
+  const std::optional<double> floor = s.fit.missing.censored ? readings.floor : stated;
+  if (!s.state.problem().bounds.any() && !floor) return result;
   const ExpectedLevels expected = expected_levels(s, found);
   for (Index i = 0; i < result.size(); ++i) {
     const double reach = thresholds::near_clip * expected.sd[i], mean = expected.mean[i];
     const auto near = [&](const std::optional<Clip>& clip, double side) {
       return clip && side * (clip->level - mean) < reach;
     };
-    const bool lost =
-        s.fit.missing.censored && mean - s.fit.readings.floor_of(s.used[static_cast<std::size_t>(i)]) < reach;
-    if (lost || near(found.receiver.top, 1) || near(found.receiver.bottom, -1)) result[i] = std::nan("");
+    const bool may_be_lost = floor && mean - readings.referred_to(*floor, s.used[static_cast<std::size_t>(i)]) < reach;
+    if (may_be_lost || near(found.receiver.top, 1) || near(found.receiver.bottom, -1)) result[i] = std::nan("");
   }
   return result;
 }
