@@ -29,8 +29,7 @@ bool holds(const Instance& instance, const Eigen::VectorXd& received) {
   const auto lost = received.array().isNaN().eval();
   if (!lost.any() || lost.all()) return false;
   const double weakest = lost.select(std::numeric_limits<double>::infinity(), received).minCoeff();
-  return weakest > clip_level(instance) - thresholds::same_clip &&
-         weakest < clip_level(instance) + thresholds::reaches_a_floor;
+  return weakest >= clip_level(instance) && weakest < clip_level(instance) + thresholds::reaches_a_floor;
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(StatedFloor, ADefaultHoldsWhereReadingsAreLostBelowIt) {
   EXPECT_EQ(floor({-60, none, -94.6}), -95);
   EXPECT_EQ(floor({-60, none, -95}), -95);
   EXPECT_EQ(floor({-60, none, -92}), std::nullopt);    // nothing says that the loss lies below
-  EXPECT_EQ(floor({-60, none, -97}), std::nullopt);    // a receiver that hears more
+  EXPECT_EQ(floor({-60, none, -95.2}), std::nullopt);  // a receiver that hears more
   EXPECT_EQ(floor({-60, -80, -95}), std::nullopt);     // nothing is lost
   EXPECT_EQ(floor({none, none, none}), std::nullopt);  // nothing is heard
 }

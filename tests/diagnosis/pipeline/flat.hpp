@@ -1,6 +1,7 @@
 // A flat, a tour of it, and readings that a world draws there.
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -60,8 +61,10 @@ inline std::filesystem::path drawn_by(const Scratch& scratch, const std::filesys
   const Eigen::VectorXd drawn = LinkModel(world, scratch / "places.csv", path).drawn();
   std::ofstream measured(scratch / "measured.csv");
   measured << ends << ",rssi[dBm]\n";
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    measured << rows[i] << ',' << print_real(drawn[static_cast<Eigen::Index>(i)]) << '\n';
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double level = drawn[static_cast<Eigen::Index>(i)];
+    measured << rows[i] << ',' << (std::isnan(level) ? "" : print_real(level)) << '\n';
+  }
   return scratch / "measured.csv";
 }
 

@@ -1,12 +1,15 @@
 // Readings that a world draws itself, diagnosed by the very same world: nothing is wrong with it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
 
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/pipeline/unstated_field.hpp"
+#include "muster/random.hpp"
 #include "tests/diagnosis/pipeline/flat.hpp"
 
 namespace muster::diagnosis {
@@ -70,6 +73,64 @@ TEST(OwnDraws, NothingIsWrongWithoutFading) {
     const Scratch scratch;
     const std::filesystem::path world = flat(scratch, seed, "fading=\"false\"");
     EXPECT_EQ(names_in_words(named_causes(diagnose(world, drawn_by(scratch, world), plugins))), "silent");
+  }
+}
+
+// A world whose receiver loses readings; `power`: dBm; `receiver`: its element, or none.
+std::filesystem::path far_off(const Scratch& scratch, int seed, int power, const std::string& receiver) {
+  const std::filesystem::path world = flat(scratch, seed, "rician_k=\"6\" per_reading=\"true\"");
+  std::string text = contents(world);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, text.npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  replace("tx_power=\"1\"", fmt::format("tx_power=\"{}\"", power));
+  replace("<radio.receiver sensitivity=\"-200\"/>", receiver);
+  std::ofstream(world) << text;
+  return world;
+}
+
+// A receiver that the world writes, and its default where the log ends at that; also where nothing was heard at first,
+// for no message had been sent.
+TEST(OwnDraws, NothingIsWrongWhereMostReadingsAreLost) {
+  for (const int seed : {21, 22, 23, 24, 25, 26}) {
+    SCOPED_TRACE(seed);
+    const Scratch scratch;
+    const std::filesystem::path world =
+        far_off(scratch, seed, -42, seed % 2 ? "" : "<radio.receiver sensitivity=\"-95\"/>");
+    const std::filesystem::path measured = drawn_by(scratch, world);
+    std::string log = contents(measured);
+    for (std::size_t k = 0; k < 3; ++k) log.insert(log.find('\n') + 1, "-0.7" + tour()[k].substr(1) + ",\n");
+    std::ofstream(measured) << log;
+    const Diagnosis found = diagnose(world, measured, plugins);
+    EXPECT_EQ(names_in_words(named_causes(found)), "silent");
+    EXPECT_STREQ(found.verdict(), "adequate");
+    EXPECT_GT(found.readings, 1200u);                                  // those that were lost are bounds
+    EXPECT_NEAR(std::sqrt(found.noise.reading_variance()), 3.2, 1.1);  // of the upper part of skewed fades
+  }
+}
+
+// Packets that collide are lost however strong they are, beside those that are too weak: no bounds, which would be
+// gross errors.
+TEST(OwnDraws, NothingIsWrongWherePacketsCollideBesides) {
+  const Stream random(key_of("collisions"));
+  for (const int seed : {27, 28, 29}) {
+    SCOPED_TRACE(seed);
+    const Scratch scratch;
+    const std::filesystem::path world = far_off(scratch, seed, -34, "");
+    std::istringstream log(contents(drawn_by(scratch, world)));
+    std::ofstream out(scratch / "measured.csv");
+    std::string row;
+    for (uint64_t i = 0; std::getline(log, row); ++i)
+      out << (i > 0 && random.uniform(i) < 0.03 ? row.substr(0, row.rfind(',') + 1) : row) << '\n';
+    out.close();
+    const Diagnosis found = diagnose(world, scratch / "measured.csv", plugins);
+    EXPECT_STREQ(found.verdict(), "adequate");
+    EXPECT_NEAR(std::sqrt(found.noise.reading_variance()), 3.2, 0.5);
+    EXPECT_NE(std::find_if(found.notes.begin(), found.notes.end(),
+                           [](const std::string& note) { return note.find("lost otherwise") != note.npos; }),
+              found.notes.end());
   }
 }
 

@@ -1,0 +1,181 @@
+// Draws of censored readings against the truncated normal distribution, and the noise that is fitted to them.
+#include "diagnosis/inference/noise/censored_draws.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numeric>
+
+#include "diagnosis/inference/state/model_state.hpp"
+#include "muster/random.hpp"
+#include "tests/diagnosis/inference/causes.hpp"
+
+namespace muster::noise {
+namespace {
+
+double above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
+double hazard(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * M_PI) / above(z); }
+
+TEST(NormalAbove, HasThatShareOfTheTailAboveIt) {
+  for (const double end : {-12.0, -3.0, 0.0, 1.5, 5.5}) {
+    for (const double share : {1e-6, 0.01, 0.5, 0.99}) {
+      const double x = normal_above(end, share);
+      EXPECT_GE(x, end);
+      EXPECT_NEAR(above(x) / above(end), share, 1e-6 * share + 1e-9) << end << ' ' << share;
+    }
+  }
+  EXPECT_NEAR(normal_above(40, 0.5), 40 + std::log(2) / 40, 1e-4);  // beyond where the tail underflows
+}
+
+// Readings on a line, `apart` m from each other, one a row, or several at each place.
+struct Line {
+  Sites sites;
+  Rows rows;
+
+  Line(Index places, Index each, double apart, std::vector<Index> twin = {})
+      : rows(order(places * each, !twin.empty()), first(places, each), twin) {
+    const Index n = rows.size();
+    sites.place = sites.anchor = sites.place_stretch = sites.anchor_stretch = Eigen::Matrix3Xd::Zero(3, n);
+    for (Index i = 0; i < n; ++i) sites.place(0, i) = apart * static_cast<double>(i % places);
+    sites.group.assign(static_cast<std::size_t>(n), 0);
+    sites.count = rows.count();
+    if (twin.empty()) return;
+    for (Index i = 0; i < n; ++i) sites.alone.push_back(rows.is_difference(i) ? 0.5 : 0);
+  }
+  static std::vector<Index> order(Index n, bool twins) {
+    std::vector<Index> result(static_cast<std::size_t>(n));
+    std::iota(result.begin(), result.end(), Index{0});
+    if (twins) {
+      for (Index& reading : result) reading *= 2;
+    }
+    return result;
+  }
+  static std::vector<Index> first(Index places, Index each) {
+    std::vector<Index> result;
+    for (Index i = 0; i <= places; ++i) result.push_back(i * each);
+    return result;
+  }
+};
+
+struct Moments {
+  Eigen::VectorXd mean, sd;
+};
+
+// Of the readings in many sweeps, after some to forget the start.
+Moments moments_of(const CensoredDraws& draws, Eigen::VectorXd filled) {
+  constexpr int sweeps = 4000;
+  const Eigen::VectorXd mean = Eigen::VectorXd::Zero(filled.size());
+  Eigen::VectorXd sum = mean, squares = mean;
+  for (uint64_t k = 0; k < sweeps + 50; ++k) {
+    draws.sweep(k, mean, filled);
+    if (k < 50) continue;
+    sum += filled;
+    squares += filled.cwiseAbs2();
+  }
+  sum /= sweeps;
+  return {sum, (squares / sweeps - sum.cwiseAbs2()).cwiseMax(0).cwiseSqrt()};
+}
+
+// White noise of 2 dB: the moments of the truncated normal, below a floor and above a ceiling.
+TEST(CensoredDraws, HaveTheMomentsOfTheirDistribution) {
+  const Line line(4, 1, 1000);
+  const Field field(line.sites);
+  const Whitener whitener(field, {Family::exponential, {std::log(1e-9), 0, std::log(4.0), 0}});
+  const Eigen::VectorXd readings = Eigen::Vector4d(1, -2, 1.5, 0.7);
+  const Bounds bounds{{Known::below, Known::below, Known::above, Known::value}, 0.5};
+  const Moments got = moments_of({readings, bounds, line.rows, field, whitener}, readings);
+  const auto expect = [&](Index i, double z, double side) {  // z: of the bound, on the side where the level is
+    EXPECT_NEAR(got.mean[i], side * 2 * hazard(z), 0.12) << i;
+    EXPECT_NEAR(got.sd[i], 2 * std::sqrt(1 - hazard(z) * (hazard(z) - z)), 0.08) << i;
+  };
+  expect(0, -0.75, -1);
+  expect(1, 0.75, -1);
+  expect(2, 0.5, 1);
+  EXPECT_NEAR(got.mean[3], 0.7, 1e-9);
+  EXPECT_LT(got.sd[3], 1e-6);
+}
+
+// One reading far inside its bound amid known ones: what they let expect, by the dense covariance.
+TEST(CensoredDraws, FollowWhatNeighboursLetExpect) {
+  constexpr Index n = 7;
+  const Line line(n, 1, 1);
+  const Field field(line.sites);
+  const Covariance c{Family::exponential, {std::log(9.0), std::log(3.0), std::log(1.0), 0}};
+  const Whitener whitener(field, c);
+  const Eigen::MatrixXd w = whitener(Eigen::MatrixXd::Identity(n, n)), precision = w.transpose() * w;
+  Eigen::VectorXd readings(n);
+  readings << 3, 4, 5, 40, 3, 2, 4;
+  Bounds bounds{std::vector<Known>(n, Known::value), 0};
+  bounds.known[3] = Known::below;
+  const Moments got = moments_of({readings, bounds, line.rows, field, whitener}, readings);
+  double expected = 0;
+  for (Index j = 0; j < n; ++j) expected -= j == 3 ? 0 : precision(3, j) * readings[j] / precision(3, 3);
+  EXPECT_GT(expected, 2);
+  EXPECT_NEAR(got.mean[3], expected, 0.1);
+  EXPECT_NEAR(got.sd[3], 1 / std::sqrt(precision(3, 3)), 0.05);
+}
+
+// Two readings at a place share its level, and differ by their own scatter: the same as two rows there.
+TEST(CensoredDraws, OfOneRowOrOfTwoAreTheSame) {
+  const Covariance c{Family::exponential, {std::log(9.0), std::log(3.0), std::log(2.0), 0}};
+  const Eigen::VectorXd readings = Eigen::Vector4d(-3, 2, 1, -1);
+  const Bounds bounds{{Known::below, Known::value, Known::value, Known::below}, 0};
+  const Line together(2, 2, 2);
+  Line apart(4, 1, 0);
+  apart.sites.place.row(0) << 0, 0, 2, 2;
+  const Field of_two(together.sites), of_four(apart.sites);
+  const Whitener two(of_two, c), four(of_four, c);
+  const Moments one = moments_of({readings, bounds, together.rows, of_two, two}, readings),
+                other = moments_of({readings, bounds, apart.rows, of_four, four}, readings);
+  EXPECT_LT((one.mean - other.mean).cwiseAbs().maxCoeff(), 0.12);
+  EXPECT_LT((one.sd - other.sd).cwiseAbs().maxCoeff(), 0.08);
+  EXPECT_GT(one.sd[0], 0.5);
+}
+
+// The two directions of a link share its fade: a second twin whose first is known lies beside it, by the scatter of
+// half their difference.
+TEST(CensoredDraws, OfATwinLieBesideTheOther) {
+  const Line line(2, 1, 1000, {1, 0, 3, 2});
+  const Field field(line.sites);
+  const Whitener whitener(field, {Family::exponential, {std::log(9.0), std::log(3.0), std::log(4.0), 0}});
+  const Eigen::VectorXd readings = Eigen::Vector4d(5, 20, 1, 1);
+  const Bounds bounds{{Known::value, Known::below, Known::value, Known::value}, 0};
+  const Moments got = moments_of({readings, bounds, line.rows, field, whitener}, readings);
+  // m = (5 + r) / 2 of variance 13, d = (5 - r) / 2 of variance 0.5
+  EXPECT_NEAR(got.mean[1], 5 * (1 / 0.5 - 1 / 13.0) / (1 / 0.5 + 1 / 13.0), 0.1);
+  EXPECT_NEAR(got.sd[1], 2 / std::sqrt(1 / 0.5 + 1 / 13.0), 0.08);
+}
+
+// Six of ten readings below a floor: their expectations leave half of the scatter, draws all of it.
+TEST(CensoredDraws, LeaveTheNoiseAsWideAsItIs) {
+  synthetic::Recipe recipe;
+  recipe.seed = 5;
+  recipe.readings = 3000;
+  recipe.sigma = 3;
+  recipe.fading = 3;
+  synthetic::World world = synthetic::world_of(recipe);
+  Eigen::VectorXd sorted = world.rssi;
+  std::sort(sorted.begin(), sorted.end());
+  const double floor = std::round(sorted[1800]);
+  const Eigen::VectorXd whole = world.rssi;
+  world.rssi = whole.cwiseMax(floor);
+  inference::Problem problem = synthetic::problem_of(world, Eigen::VectorXd::Zero(3000), {}, {.way = -1});
+  problem.bounds.half_code = 0.5;
+  for (Index i = 0; i < 3000; ++i)
+    problem.bounds.known.push_back(problem.measured[i] <= floor ? Known::below : Known::value);
+  const inference::ModelState state(problem, {});
+  const Covariance& c = state.fit.covariance;
+  EXPECT_NEAR(std::sqrt(c.field_variance() + c.reading_variance()), std::sqrt(18.0), 0.6);
+  EXPECT_NEAR(std::sqrt(c.reading_variance()), 3, 0.5);
+  // Each draw keeps to its bound.
+  for (Index i = 0; i < 3000; ++i) {
+    if (problem.measured[i] <= floor)
+      EXPECT_LE(state.measured()[i], floor + 0.5 + 1e-9) << i;
+    else
+      EXPECT_EQ(state.measured()[i], problem.measured[i]) << i;
+  }
+}
+
+}  // namespace
+}  // namespace muster::noise
