@@ -187,6 +187,7 @@ struct Diagnosis {
   std::vector<inference::Elsewhere> elsewhere;  // the same on held-out radios and runs, if there are several
   std::vector<Eigen::Index> used;               // rows of the table used in the search
   std::optional<double> end;                    // dBm; a floor below which readings are missing from the table
+  bool end_of_default = false;                  // that floor is a default of the world's receiver
   Eigen::VectorXd fitted;                       // mean of the world as given, fitted, at every row of the table, dBm
   Eigen::VectorXd levels;                       // of the readings used, dBm; of a censored one, a draw beyond its bound
   std::map<std::string, double> parameters;     // of the world, refitted beside the causes

@@ -89,7 +89,7 @@ void check_count(const Fit& fit, const Search& search, const Dataset& data) {
 MissingData missing_from(const Readings& readings, const Search& search, double sigma) {
   const Eigen::VectorXd received = readings.received(readings.rssi);
   return missing_data(received, readings.received(search.model.expected()), sigma,
-                      silent_below(search.model.simulation(), received));
+                      silent_below(search.model.simulation(), weakest_of_some(received)));
 }
 
 // Fits with missing readings below the floor, except where those about them are far above it.
@@ -109,7 +109,8 @@ void fit_censored(Readings& readings, double floor, Minimum& fit, const Search& 
 // Where many are lost, what was heard at low levels are the stronger ones, to which a fit of them alone is too near to
 // see the floor. Where readings end at the floor that the world states it is asked for beside a fit that knows it, too.
 void look_for_stated_floor(Fit& fit, const Search& search, const Box& box) {
-  const auto stated = silent_below(search.model.simulation(), fit.readings.received(fit.readings.rssi));
+  const auto stated =
+      silent_below(search.model.simulation(), weakest_of_some(fit.readings.received(fit.readings.rssi)));
   if (!stated || fit.missing.censored || !fit.missing.rises() ||
       std::abs(fit.missing.floor - *stated) > thresholds::near_stated_floor)
     return;

@@ -148,7 +148,7 @@ struct AsGiven {
 };
 
 // Where the readings end at a floor, they are diagnosed again with that known. A floor that is not seen then is in
-// doubt.
+// doubt, unless it is the world's own by default.
 AsGiven diagnosed_as_given(const std::filesystem::path& world, const std::filesystem::path& data,
                            const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
                            const inference::Watch& watch) {
@@ -159,7 +159,7 @@ AsGiven diagnosed_as_given(const std::filesystem::path& world, const std::filesy
   AsGiven ended{std::make_unique<Diagnoser>(world, data, plugins, tables, watch, Earlier{{}, given.found.end}), {}, {}};
   ended.found = ended.by->run();
   if (watch.stop()) return given;
-  ended.end = ended.found.end;
+  ended.end = given.found.end_of_default ? given.found.end : ended.found.end;
   if (ended.end) return ended;
   for (CauseEstimate& c : given.found.causes)
     if (!c.values.empty() && c.values[0].value == *given.found.end)

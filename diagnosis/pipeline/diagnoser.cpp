@@ -315,8 +315,8 @@ std::pair<inference::Finding, const CauseCandidate*> Diagnoser::simplest(const i
 }
 
 void Diagnoser::add_what_scatters(const inference::ModelState& state, Diagnosis& out) {
-  const LawSources sources{setup_.model,     setup_.draws, setup_.data, causes_, state, setup_.layout->readings(),
-                           setup_.used.rows, setup_.fitted};
+  const LawSources sources{setup_.model,     setup_.draws,  setup_.data, causes_, state, setup_.layout->readings(),
+                           setup_.used.rows, setup_.fitted, setup_.end};
   watch_.at("testing the laws of fading and outliers");
   if (watch_.stop()) {
     extend(state, out);

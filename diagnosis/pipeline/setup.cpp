@@ -104,9 +104,8 @@ std::function<Eigen::MatrixXd(const noise::StatedField&, Index)> errors_in_draws
 // what the world's receiver can hear end nowhere, and those of a better receiver end elsewhere.
 std::optional<double> end_of(const DiagnosisSetup& at, const Earlier& earlier) {
   if (at.fitted.missing.count > 0) return {};
-  const VectorXd received = at.fitted.readings.received(at.fitted.readings.rssi);
-  const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation(), received);
-  const double weakest = received.minCoeff();
+  const std::optional<double> level = earlier.end ? earlier.end : silent_below(at.model.simulation(), {});
+  const double weakest = at.fitted.readings.received(at.fitted.readings.rssi).minCoeff();
   return level && std::abs(weakest - *level) <= thresholds::reaches_a_floor ? level : std::nullopt;
 }
 
@@ -159,7 +158,8 @@ DiagnosisSetup::DiagnosisSetup(const std::filesystem::path& world, const std::fi
       data(read_dataset(tables->read(table))),
       receiver(receiver_checks(data)),
       model(world, table, plugins, tables),
-      draws(world, table, plugins, tables, receiver.step, unstated_floors(model.simulation(), received_in(data))),
+      draws(world, table, plugins, tables, receiver.step,
+            unstated_floors(model.simulation(), earlier.end ? earlier.end : weakest_of_some(received_in(data)))),
       causes(causes_on(plugins)),
       notes_of_places(data.has_places() ? check_places(model, data) : std::vector<std::string>{}),
       fitted(fit(model, data, hold_causes(model))),

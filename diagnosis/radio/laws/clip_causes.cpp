@@ -22,7 +22,7 @@ std::vector<const Cause*> clips_of(const LawSources& s, uint32_t side, bool sile
 }
 
 std::optional<double> stated_floor_of(const LawSources& s) {
-  return silent_below(s.model.simulation(), s.fit.readings.received(s.fit.readings.rssi));
+  return silent_below(s.model.simulation(), weakest_of_some(s.fit.readings.received(s.fit.readings.rssi)));
 }
 
 // True if an instance of the world already clips there, or keeps silent even above. A default does as far as readings
@@ -198,11 +198,13 @@ bool add_truncation(const LawSources& s, Diagnosis& found) {
   const Truncation end = truncation_at_the_end(heard, expected, weight, step);
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
   const double evidence = thresholds::joint_loss * end.evidence;
-  if (-evidence > least || !end.is_abrupt() || clips_at(s, MUSTER_BELOW, true, end.floor, step) ||
-      ends_by_itself(s, end.evidence, weight, found))
-    return false;
-  add_clip(s, causes, end.floor, std::max(step, 0.02), true, {"", {}, 2 * evidence, evidence, -evidence}, found);
+  const bool by_the_world = clips_at(s, MUSTER_BELOW, true, end.floor, step);
+  if (by_the_world && stated_floor_of(s)) return false;
+  if (-evidence > least || !end.is_abrupt() || ends_by_itself(s, end.evidence, weight, found)) return false;
   found.end = end.floor;
+  found.end_of_default = by_the_world;
+  if (by_the_world) return false;
+  add_clip(s, causes, end.floor, std::max(step, 0.02), true, {"", {}, 2 * evidence, evidence, -evidence}, found);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/calibration/fit.hpp"
@@ -22,6 +23,7 @@ struct LawSources {
   const LinkReadings& readings;        // of the search
   const std::vector<Eigen::Index>& used;
   const Fit& fit;
+  std::optional<double> end{};  // dBm; readings below it are not in the table
 };
 
 // The causes of this kind with this property, by id.

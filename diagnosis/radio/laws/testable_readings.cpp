@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -70,8 +71,11 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
   const Readings& readings = s.fit.readings;
-  const std::optional<double> stated = silent_below(s.model.simulation(), readings.received(readings.rssi));
-  const std::optional<double> floor = s.fit.missing.censored ? readings.floor : stated;
+  const VectorXd received = readings.received(readings.rssi);
+  const double weakest = received.array().isNaN().select(std::numeric_limits<double>::infinity(), received).minCoeff();
+  const std::optional<double> floor = s.fit.missing.censored ? readings.floor
+                                      : s.end                ? s.end
+                                                             : silent_below(s.model.simulation(), weakest);
   if (!s.state.problem().bounds.any() && !floor) return result;
   const ExpectedLevels expected = expected_levels(s, found);
   for (Index i = 0; i < result.size(); ++i) {

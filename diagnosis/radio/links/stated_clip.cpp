@@ -23,31 +23,35 @@ bool is_stated(const Instance& instance) {
 
 namespace {
 
-// True if the instance's level, written or by default, is one that holds for what was received.
-bool holds(const Instance& instance, const Eigen::VectorXd& received) {
+// True if the instance's level is written, or is a default at which readings end.
+bool holds(const Instance& instance, const std::optional<double>& end) {
   if (is_stated(instance)) return true;
-  const auto lost = received.array().isNaN().eval();
-  if (!lost.any() || lost.all()) return false;
-  const double weakest = lost.select(std::numeric_limits<double>::infinity(), received).minCoeff();
-  return weakest >= clip_level(instance) && weakest < clip_level(instance) + thresholds::reaches_a_floor;
+  const double level = clip_level(instance);
+  return end && *end >= level && *end < level + thresholds::reaches_a_floor;
 }
 
 }  // namespace
 
-std::map<std::string, double> unstated_floors(const Simulation& simulation, const Eigen::VectorXd& received) {
+std::map<std::string, double> unstated_floors(const Simulation& simulation, std::optional<double> end) {
   std::map<std::string, double> result;
   for (const auto& instance : simulation.instances()) {
-    if (!clips(instance->plugin(), MUSTER_BELOW, true) || holds(*instance, received)) continue;
+    if (!clips(instance->plugin(), MUSTER_BELOW, true) || holds(*instance, end)) continue;
     const muster_clip& clip = *instance->plugin().clip;
     result[instance->name() + '/' + clip.level] = instance->plugin().params[instance->find_param(clip.level)].min;
   }
   return result;
 }
 
-std::optional<double> silent_below(const Simulation& simulation, const Eigen::VectorXd& received) {
+std::optional<double> weakest_of_some(const Eigen::VectorXd& received) {
+  const auto lost = received.array().isNaN().eval();
+  if (!lost.any() || lost.all()) return {};
+  return lost.select(std::numeric_limits<double>::infinity(), received).minCoeff();
+}
+
+std::optional<double> silent_below(const Simulation& simulation, std::optional<double> end) {
   std::optional<double> level;
   for (const auto& instance : simulation.instances()) {
-    if (!clips(instance->plugin(), MUSTER_BELOW, true) || !holds(*instance, received)) continue;
+    if (!clips(instance->plugin(), MUSTER_BELOW, true) || !holds(*instance, end)) continue;
     const char* const choice = instance->plugin().clip->choice;
     if (choice && instance->params()[static_cast<std::size_t>(instance->find_param(choice))] == 0) continue;
     level = std::max(level.value_or(-std::numeric_limits<double>::infinity()), clip_level(*instance));

@@ -16,10 +16,12 @@ bool clips(const muster_plugin& plugin, uint32_t side, bool silent);
 double clip_level(const Instance& instance);
 // True if the world writes that level, which is no default then.
 bool is_stated(const Instance& instance);
+// The weakest of the levels that were received [dBm, NaN: lost], where some were lost.
+std::optional<double> weakest_of_some(const Eigen::VectorXd& received);
 // Level that the world writes, dBm, below which an instance of it lets nothing through. A default is no statement,
-// except where `received` [dBm, NaN: lost] ends there: some is lost, and the weakest that was heard lies at it.
-std::optional<double> silent_below(const Simulation& simulation, const Eigen::VectorXd& received);
+// except where readings end at it (`end`, dBm).
+std::optional<double> silent_below(const Simulation& simulation, std::optional<double> end);
 // Paths of the levels of other such instances, with the lowest that each may be.
-std::map<std::string, double> unstated_floors(const Simulation& simulation, const Eigen::VectorXd& received);
+std::map<std::string, double> unstated_floors(const Simulation& simulation, std::optional<double> end);
 
 }  // namespace muster::diagnosis

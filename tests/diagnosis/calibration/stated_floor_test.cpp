@@ -60,9 +60,8 @@ TEST(StatedFloor, ADefaultIsNone) {
     const auto world =
         scratch.write("world.xml", two_stations(is_written ? "<radio.receiver sensitivity=\"-95\"/>" : ""));
     const LinkModel model(world, file, plugins);
-    const Eigen::Vector2d received(-131, -133);
-    EXPECT_EQ(silent_below(model.simulation(), received).has_value(), is_written);
-    const auto floors = unstated_floors(model.simulation(), received);
+    EXPECT_EQ(silent_below(model.simulation(), -133).has_value(), is_written);
+    const auto floors = unstated_floors(model.simulation(), -133);
     EXPECT_EQ(floors.empty(), is_written);
     const WorldDraw draw = WorldDraws(world, file, plugins, std::make_shared<TableCache>(), 1, floors).draw(3, {}, {});
     EXPECT_EQ(draw.drawn.allFinite(), !is_written);
@@ -76,8 +75,9 @@ TEST(StatedFloor, ADefaultHoldsWhereReadingsAreLostBelowIt) {
   const Simulation& world = model.simulation();
   const double none = std::nan("");
   const auto floor = [&](const Eigen::Vector3d& received) {
-    EXPECT_EQ(unstated_floors(world, received).empty(), silent_below(world, received).has_value());
-    return silent_below(world, received);
+    const std::optional<double> end = weakest_of_some(received);
+    EXPECT_EQ(unstated_floors(world, end).empty(), silent_below(world, end).has_value());
+    return silent_below(world, end);
   };
   EXPECT_EQ(floor({-60, none, -94.6}), -95);
   EXPECT_EQ(floor({-60, none, -95}), -95);
