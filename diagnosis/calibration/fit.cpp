@@ -14,6 +14,7 @@ namespace {
 // Identifiable free parameters as one vector.
 struct Search {
   LinkModel& model;
+  const std::vector<double>& t;  // of each row, s; empty: the data have none
   std::vector<FitParameter*> parameters;
 
   Box box() const {
@@ -98,7 +99,8 @@ void fit_censored(Readings& readings, double floor, Minimum& fit, const Search& 
   std::vector<LinkPlace> links;
   for (const auto& ends : search.model.ends()) links.push_back(place_of(ends));
   const Mean mean = search.mean();
-  const std::vector<Eigen::Index> otherwise = lost_amid_heard(readings, links, mean(fit.parameters), fit.sigma);
+  const std::vector<Eigen::Index> otherwise =
+      lost_amid_heard(readings, links, search.t, mean(fit.parameters), fit.sigma);
   for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
     if (std::isnan(readings.rssi[i]) && !std::binary_search(otherwise.begin(), otherwise.end(), i))
       readings.censored.push_back(i);
@@ -212,7 +214,7 @@ Fit fit(LinkModel& model, const Dataset& data, const FitOptions& options) {
   Fit result;
   result.parameters = free_parameters(model, options);
   result.readings = heard_readings(data);
-  Search search{model, {}};
+  Search search{model, data.t, {}};
   for (FitParameter& p : result.parameters) search.parameters.push_back(&p);
   check_count(result, search, data);
   hold_blind(result, search);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,7 @@ namespace muster::diagnosis {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 // The nearest rows of the link by the way of both ends, of those that stand next to it in the log.
 std::vector<Index> nearest(std::size_t at, const std::vector<Index>& of_link, const std::vector<LinkPlace>& links) {
@@ -33,34 +35,113 @@ std::vector<Index> nearest(std::size_t at, const std::vector<Index>& of_link, co
   return result;
 }
 
+// What the neighbours of a row are above what is expected of them, dB, on average over those that are heard.
+struct Neighbours {
+  double error = 0, heard = 0;
+
+  void add(Index row, const Readings& readings, const VectorXd& mean) {
+    if (std::isnan(readings.rssi[row])) return;
+    error += readings.rssi[row] - mean[row];
+    heard += 1;
+  }
+};
+
+class Losses {
+ public:
+  Losses(const Readings& readings, const std::vector<LinkPlace>& links, const std::vector<double>& t,
+         const VectorXd& mean, double sigma)
+      : readings_(readings),
+        links_(links),
+        mean_(mean),
+        reach_(thresholds::far_above_floor * sigma),
+        order_(links.size()) {
+    std::iota(order_.begin(), order_.end(), Index{0});
+    if (!t.empty())
+      std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) {
+        return t[static_cast<std::size_t>(a)] < t[static_cast<std::size_t>(b)];
+      });
+    for (const Index row : order_) of_link_[link_of(row)].push_back(row);
+  }
+
+  std::vector<Index> of_single_readings() const {
+    std::vector<Index> result;
+    for (const auto& [link, rows] : of_link_) {
+      for (std::size_t at = 0; at < rows.size(); ++at) {
+        if (!is_lost(rows[at])) continue;
+        const std::vector<Index> near = nearest(at, rows, links_);
+        if (near.size() < thresholds::neighbours_of_a_loss) continue;
+        Neighbours of;
+        for (const Index other : near) of.add(other, readings_, mean_);
+        if (of.heard >= static_cast<double>(near.size()) - 1 && is_far_above(rows[at], of)) result.push_back(rows[at]);
+      }
+    }
+    return result;
+  }
+
+  // Stretches in which all links are silent at once.
+  std::vector<Index> of_silences() const {
+    std::vector<Index> result;
+    for (auto first = order_.begin(); first != order_.end();) {
+      first = std::find_if(first, order_.end(), [&](Index row) { return is_lost(row); });
+      const auto last = std::find_if(first, order_.end(), [&](Index row) { return !is_lost(row); });
+      if (is_silence({first, last})) result.insert(result.end(), first, last);
+      first = last;
+    }
+    return result;
+  }
+
+ private:
+  using Link = std::pair<int, int>;
+
+  Link link_of(Index row) const {
+    const LinkPlace& link = links_[static_cast<std::size_t>(row)];
+    return {link.radio_a, link.radio_b};
+  }
+  bool is_lost(Index row) const { return std::isnan(readings_.rssi[row]); }
+  bool is_far_above(Index row, const Neighbours& of) const {
+    return of.heard > 0 && mean_[row] + of.error / of.heard - readings_.floor_of(row) > reach_;
+  }
+
+  // True if two links or more would be heard there, by what they are before and after.
+  bool is_silence(const std::vector<Index>& lost) const {
+    constexpr std::ptrdiff_t beside = 3;  // readings on either side
+    std::map<Link, std::vector<Index>> of_each;
+    for (const Index row : lost) of_each[link_of(row)].push_back(row);
+    if (of_each.size() < 2) return false;
+    std::size_t heard = 0, heard_links = 0;
+    for (const auto& [link, rows] : of_each) {
+      const std::vector<Index>& all = of_link_.at(link);
+      const auto from = std::find(all.begin(), all.end(), rows.front()),
+                 to = std::find(from, all.end(), rows.back()) + 1;
+      Neighbours of;
+      for (auto at = from - std::min(beside, from - all.begin()); at != from; ++at) of.add(*at, readings_, mean_);
+      for (auto at = to; at != to + std::min(beside, all.end() - to); ++at) of.add(*at, readings_, mean_);
+      const auto far = static_cast<std::size_t>(
+          std::count_if(rows.begin(), rows.end(), [&](Index row) { return is_far_above(row, of); }));
+      heard += far;
+      heard_links += far > 0;
+    }
+    return heard_links > 1 && heard >= thresholds::fewest_of_a_silence;
+  }
+
+  const Readings& readings_;
+  const std::vector<LinkPlace>& links_;
+  const VectorXd& mean_;
+  double reach_;
+  std::vector<Index> order_;  // rows in order of time
+  std::map<Link, std::vector<Index>> of_link_;
+};
+
 }  // namespace
 
 std::vector<Index> lost_amid_heard(const Readings& readings, const std::vector<LinkPlace>& links,
-                                   const Eigen::VectorXd& mean, double sigma) {
-  std::map<std::pair<int, int>, std::vector<Index>> of_link;
-  for (Index i = 0; i < readings.rssi.size(); ++i) {
-    const LinkPlace& link = links[static_cast<std::size_t>(i)];
-    of_link[{link.radio_a, link.radio_b}].push_back(i);
-  }
-  std::vector<Index> result;
-  for (const auto& [link, rows] : of_link) {
-    for (std::size_t at = 0; at < rows.size(); ++at) {
-      const Index row = rows[at];
-      if (!std::isnan(readings.rssi[row])) continue;
-      const std::vector<Index> near = nearest(at, rows, links);
-      if (near.size() < thresholds::neighbours_of_a_loss) continue;
-      double error = 0, heard = 0;
-      for (const Index other : near) {
-        if (std::isnan(readings.rssi[other])) continue;
-        error += readings.rssi[other] - mean[other];
-        heard += 1;
-      }
-      const bool others_heard = heard >= static_cast<double>(near.size()) - 1;
-      if (others_heard && mean[row] + error / heard - readings.floor_of(row) > thresholds::far_above_floor * sigma)
-        result.push_back(row);
-    }
-  }
+                                   const std::vector<double>& t, const VectorXd& mean, double sigma) {
+  const Losses losses(readings, links, t, mean, sigma);
+  std::vector<Index> result = losses.of_single_readings();
+  const std::vector<Index> silent = losses.of_silences();
+  result.insert(result.end(), silent.begin(), silent.end());
   std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 

@@ -181,6 +181,9 @@ inline constexpr double beside_a_loss = 2;
 inline constexpr std::size_t neighbours_of_a_loss = 6;
 // standard deviations; above a floor, where nothing is lost for its level; chosen; LostAmidHeard.NearTheFloorIsABound
 inline constexpr double far_above_floor = 3;
+// readings; of a silence of all links that would be heard, to take it for no matter of levels; chosen;
+// LostAmidHeard.SilencesOfAllLinksAreNoBounds
+inline constexpr std::size_t fewest_of_a_silence = 3;
 // log share; of readings that a receiver reads below its floor, as outliers; chosen;
 // MissingData.NoFloorIsAboveAReadingThatWasReceived
 inline constexpr double log_share_below_a_floor = -7;

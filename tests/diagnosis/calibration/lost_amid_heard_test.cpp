@@ -21,7 +21,7 @@ struct Drive {
   void lose(std::initializer_list<Eigen::Index> rows) {
     for (const Eigen::Index row : rows) readings.rssi[row] = std::nan("");
   }
-  std::vector<Eigen::Index> otherwise() const { return lost_amid_heard(readings, links, mean, 3); }
+  std::vector<Eigen::Index> otherwise() const { return lost_amid_heard(readings, links, {}, mean, 3); }
 };
 
 TEST(LostAmidHeard, IsNoBound) {
@@ -67,6 +67,40 @@ TEST(LostAmidHeard, IsAskedOfItsOwnLink) {
   drive.readings.rssi.setConstant(-60);
   for (Eigen::Index i = 0; i < 40; i += 2) drive.readings.rssi[i] = std::nan("");
   EXPECT_TRUE(drive.otherwise().empty());
+}
+
+// Two stations in turn; `t`: that of the second one comes after all of the first.
+struct Two {
+  Readings readings{.rssi = Eigen::VectorXd::Constant(80, -70), .floor = -90};
+  std::vector<LinkPlace> links;
+  std::vector<double> t;
+  Eigen::VectorXd mean = readings.rssi;
+
+  explicit Two(bool by_station = false) {
+    for (int i = 0; i < 80; ++i) {
+      const int station = by_station ? i / 40 : i % 2, moment = by_station ? i % 40 : i / 2;
+      links.push_back({{1.0 * station, 0, 1}, {2 + 0.3 * moment, 0, 1}, station, 2});
+      t.push_back(0.5 * moment);
+      if (moment >= 10 && moment < 20) readings.rssi[i] = std::nan("");
+    }
+  }
+  std::size_t otherwise() const { return lost_amid_heard(readings, links, t, mean, 3).size(); }
+};
+
+TEST(LostAmidHeard, SilencesOfAllLinksAreNoBounds) {
+  EXPECT_EQ(Two().otherwise(), 20u);
+  EXPECT_EQ(Two(true).otherwise(), 20u);  // by their times
+  Two at_first;
+  at_first.readings.rssi.head(20).setConstant(std::nan(""));
+  EXPECT_EQ(at_first.otherwise(), 40u);
+  Two weak;  // one of both is near the floor
+  for (Eigen::Index i = 1; i < 80; i += 2) weak.readings.rssi[i] -= 15;
+  weak.mean = weak.readings.rssi.array().isNaN().select(-85, weak.readings.rssi);
+  weak.mean(Eigen::seq(0, 79, 2)).setConstant(-70);
+  EXPECT_EQ(weak.otherwise(), 0u);
+  Two one;  // the other is heard all the while: something stands in the way
+  one.readings.rssi(Eigen::seq(1, 79, 2)).setConstant(-70);
+  EXPECT_EQ(one.otherwise(), 0u);
 }
 
 }  // namespace
