@@ -42,6 +42,11 @@ std::string nearest_cause(const std::string& id) {
       ->id;
 }
 
+bool is_cause(const std::string& id) {
+  const auto& all = simulated::cause_kinds();
+  return std::any_of(all.begin(), all.end(), [&](const auto& k) { return k.id == id; });
+}
+
 [[noreturn]] void refuse(const std::string& file, const std::string& key, const std::string& words) {
   throw std::runtime_error(fmt::format("{}: {}: {}", file, key, words));
 }
@@ -59,9 +64,7 @@ void check_effect(ordered_json& effect, const std::string& key, const std::strin
   if (!effect.contains("in_vocabulary")) effect["in_vocabulary"] = true;
   if (!effect["in_vocabulary"].is_boolean()) refuse(file, key + ".in_vocabulary", "expected true or false");
   const std::string id = effect["id"];
-  const auto& all = simulated::cause_kinds();
-  const bool is_cause = std::any_of(all.begin(), all.end(), [&](const auto& k) { return k.id == id; });
-  if (effect["in_vocabulary"].get<bool>() && !is_cause)
+  if (effect["in_vocabulary"].get<bool>() && !is_cause(id))
     refuse(file, key + ".id",
            fmt::format("no cause is called \"{}\"; did you mean \"{}\"? An effect without a name in muster has "
                        "\"in_vocabulary\": false",
@@ -71,6 +74,13 @@ void check_effect(ordered_json& effect, const std::string& key, const std::strin
     if (of.is_null()) of = ordered_json::array();
     if (!of.is_array() || !std::all_of(of.begin(), of.end(), [](const auto& v) { return v.is_string(); }))
       refuse(file, key + "." + list, "expected a list of names");
+  }
+  for (const char* list : {"also", "class"}) {
+    for (const std::string other : effect[list]) {
+      if (!is_cause(other))
+        refuse(file, key + "." + list,
+               fmt::format("no cause is called \"{}\"; did you mean \"{}\"?", other, nearest_cause(other)));
+    }
   }
   ordered_json& parameters = effect["parameters"];
   if (parameters.is_null()) parameters = ordered_json::array();

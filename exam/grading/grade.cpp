@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace muster::exam {
@@ -179,8 +180,9 @@ void add_place(Grades& grades, const Truth::Effect& effect, const Verdict::Cause
   else if (effect.id == "obstacle")
     grades.places.obstacle.push_back(std::hypot(truth[0] - said[0], truth[1] - said[1]));
   const auto loss = cause.parameters.find("loss");
-  if (wall && loss != cause.parameters.end())
-    grades.places.wall_loss.push_back(std::abs(loss->second.value - effect.parameters.at("loss")));
+  const auto true_loss = effect.parameters.find("loss");
+  if (wall && loss != cause.parameters.end() && true_loss != effect.parameters.end())
+    grades.places.wall_loss.push_back(std::abs(loss->second.value - true_loss->second));
 }
 
 // Parameter errors. A wall's ends have no order, so its error is that of the whole segment, not of single
@@ -188,11 +190,14 @@ void add_place(Grades& grades, const Truth::Effect& effect, const Verdict::Cause
 void add_parameters(Grades& grades, const Truth::Effect& effect, const Verdict::Cause& cause) {
   if (!effect.rows.empty() && !at_right_row(effect, cause)) return;
   add_place(grades, effect, cause);
+  // rad; a rectangle is the same after half a turn
+  static const std::map<std::string, double> periods{{"direction", 2 * M_PI}, {"phase", 2 * M_PI}, {"heading", M_PI}};
   for (const auto& [name, value] : effect.parameters) {
     const auto said = cause.parameters.find(name);
     if (said == cause.parameters.end() || name == "x0" || name == "y0" || name == "x1" || name == "y1") continue;
     double error = said->second.value - value;
-    const double turn = name == "direction" ? std::round(error / 6.283185307179586) * 6.283185307179586 : 0;
+    const auto period = periods.find(name);
+    const double turn = period == periods.end() ? 0 : std::round(error / period->second) * period->second;
     error -= turn;
     if (value != 0) grades.relative_errors.push_back(std::abs(error / value));
     if (said->second.lower95 && said->second.upper95)

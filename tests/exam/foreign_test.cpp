@@ -43,6 +43,8 @@ TEST(ForeignGenerator, WrongAnswersAreRefusedByKey) {
   EXPECT_EQ(refused(R"({"effects": [{"id": "step", "lambda": 1, "row": []}]})"),
             "answer.json: effects[0].row: unknown; expected one of id, lambda, in_vocabulary, rows, parameters, also, "
             "class, covariates, acts, wanted_lambda");
+  EXPECT_EQ(refused(R"({"effects": [{"id": "step", "lambda": 1, "also": ["drfit"]}]})"),
+            "answer.json: effects[0].also: no cause is called \"drfit\"; did you mean \"drift\"?");
   EXPECT_EQ(refused("{}"), "answer.json: effects: expected a list, empty for a clean case");
   EXPECT_EQ(refused(R"({"format": "mine", "effects": []})"), "answer.json: format: expected \"muster_exam/1\"");
   EXPECT_EQ(refused("[").substr(0, 23), "answer.json: not JSON: ");

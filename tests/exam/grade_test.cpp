@@ -237,6 +237,30 @@ TEST(Grade, DirectionsWrap) {
   EXPECT_LT(g.relative_errors.at(0), 0.03);
 }
 
+// A phase repeats after a turn, the heading of a rectangle after half of one.
+TEST(Grade, PhasesAndHeadingsWrap) {
+  const auto relative_error = [](const std::string& id, const std::string& name, double truth, double value) {
+    Grades g;
+    add(g, Truth{"c", "one", {{id, {}, {}, {}, {{name, truth}}, 90}}, 0},
+        said(R"({"verdict":"extended","causes":[{"id":"effect.)" + id +
+             R"(","status":"named","parameters":[{"name":")" + name + R"(","value":)" + std::to_string(value) +
+             "}]}]}"));
+    return g.relative_errors.at(0);
+  };
+  EXPECT_LT(relative_error("periodic", "phase", 3.1, -3.1), 0.03);
+  EXPECT_LT(relative_error("room_clutter", "heading", 1.5, -1.6), 0.03);
+  EXPECT_GT(relative_error("periodic", "phase", 1.5, -1.6), 1);
+}
+
+TEST(Grade, AWallMayBeAnsweredWithoutItsLoss) {
+  Grades g;
+  add(g, Truth{"c", "one", {{"unmapped_wall", {}, {}, {}, {{"x0", 0}, {"y0", 0}, {"x1", 4}, {"y1", 0}}, 90}}, 0},
+      said(
+          R"({"verdict":"extended","causes":[{"id":"effect.unmapped_wall","label":"","status":"named","parameters":[{"name":"x0","value":4},{"name":"y0","value":0.2},{"name":"x1","value":0},{"name":"y1","value":0.2},{"name":"loss","value":9.5}]}]})"));
+  EXPECT_EQ(g.places.wall.size(), 1u);
+  EXPECT_TRUE(g.places.wall_loss.empty());
+}
+
 TEST(Grade, ValuesOfAnotherRowAreNotCompared) {
   for (const auto& [radio, compared] : {std::pair("robot1", 1u), std::pair("robot2", 0u)}) {
     Truth truth{"c", "one", {{"rx_offset", {"radio/robot1"}, {}, {}, {{"offset", 1.4}}, 90}}, 0};
