@@ -189,7 +189,7 @@ struct Diagnosis {
   std::optional<double> end;                    // dBm; a floor below which readings are missing from the table
   bool end_of_default = false;                  // that floor is a default of the world's receiver
   Eigen::VectorXd fitted;                       // mean of the world as given, fitted, at every row of the table, dBm
-  Eigen::VectorXd levels;                       // of the readings used, dBm; of a censored one, a draw beyond its bound
+  Eigen::VectorXd levels;                       // of the readings used, dBm; censored and truncated ones as imputed
   std::map<std::string, double> parameters;     // of the world, refitted beside the causes
   std::vector<WorldValue> world_values;         // the same with their uncertainty
   std::vector<inference::Stair> stairs;         // held-out error of the world, then with each accepted finding in turn

@@ -93,14 +93,37 @@ MissingData missing_from(const Readings& readings, const Search& search, double 
                       silent_below(search.model.simulation(), weakest_of_some(received)));
 }
 
-// Fits with missing readings below the floor, except where those about them are far above it.
-void fit_censored(Readings& readings, double floor, Minimum& fit, const Search& search, const Box& box) {
-  readings.floor = floor;
+// Rows without a reading that were lost for another reason than the floor of the readings.
+std::vector<Eigen::Index> lost_otherwise(const Readings& readings, const Minimum& fit, const Search& search) {
   std::vector<LinkPlace> links;
   for (const auto& ends : search.model.ends()) links.push_back(place_of(ends));
-  const Mean mean = search.mean();
-  const std::vector<Eigen::Index> otherwise =
-      lost_amid_heard(readings, links, search.t, mean(fit.parameters), fit.sigma);
+  const Eigen::VectorXd mean = search.mean()(fit.parameters);
+  double squares = 0;  // of what was heard, which those that were lost otherwise do not widen
+  for (const auto i : readings.heard) squares += std::pow(readings.rssi[i] - mean[i], 2);
+  const double scatter = std::sqrt(squares / static_cast<double>(readings.heard.size()));
+  return lost_amid_heard(readings, links, search.t, mean, scatter);
+}
+
+// The test of a fit without those that were lost otherwise; which are counted still.
+MissingData missing_but_for(const std::vector<Eigen::Index>& otherwise, const Readings& readings, const Search& search,
+                            const Minimum& fit, const MissingData& of_all) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
+    if (!std::binary_search(otherwise.begin(), otherwise.end(), i)) rows.push_back(i);
+  }
+  const Eigen::VectorXd received = readings.received(readings.rssi);
+  MissingData result = missing_data(received(rows), readings.received(search.mean()(fit.parameters))(rows), fit.sigma,
+                                    silent_below(search.model.simulation(), weakest_of_some(received)));
+  result.count = of_all.count;
+  result.bins = of_all.bins;
+  return result;
+}
+
+// Fits with missing readings below the floor, except those that were lost otherwise.
+void fit_censored(Readings& readings, double floor, Minimum& fit, const std::vector<Eigen::Index>& otherwise,
+                  const Mean& mean, const Box& box) {
+  readings.floor = floor;
+  readings.censored.clear();
   for (Eigen::Index i = 0; i < readings.rssi.size(); ++i) {
     if (std::isnan(readings.rssi[i]) && !std::binary_search(otherwise.begin(), otherwise.end(), i))
       readings.censored.push_back(i);
@@ -110,7 +133,7 @@ void fit_censored(Readings& readings, double floor, Minimum& fit, const Search& 
 
 // Where many are lost, what was heard at low levels are the stronger ones, to which a fit of them alone is too near to
 // see the floor. Where readings end at the floor that the world states it is asked for beside a fit that knows it, too.
-void look_for_stated_floor(Fit& fit, const Search& search, const Box& box) {
+void look_for_stated_floor(Fit& fit, const Search& search, const Mean& mean, const Box& box) {
   const auto stated =
       silent_below(search.model.simulation(), weakest_of_some(fit.readings.received(fit.readings.rssi)));
   if (!stated || fit.missing.censored || !fit.missing.rises() ||
@@ -118,7 +141,7 @@ void look_for_stated_floor(Fit& fit, const Search& search, const Box& box) {
     return;
   Readings readings = fit.readings;
   Minimum censored = fit.least_squares;
-  fit_censored(readings, fit.missing.floor, censored, search, box);
+  fit_censored(readings, fit.missing.floor, censored, {}, mean, box);
   search.set(censored.parameters);
   const MissingData missing = missing_from(readings, search, censored.sigma);
   if (missing.censored && censored.sigma < thresholds::wider_beside_floor * fit.least_squares.sigma)
@@ -134,8 +157,27 @@ void solve(Fit& fit, const Search& search) {
   fit.least_squares = least_squares(fit.readings, mean, search.start(), box);
   search.set(fit.least_squares.parameters);
   fit.missing = missing_from(fit.readings, search, fit.least_squares.sigma);
-  look_for_stated_floor(fit, search, box);
-  if (fit.missing.censored) fit_censored(fit.readings, fit.missing.floor, fit.least_squares, search, box);
+  look_for_stated_floor(fit, search, mean, box);
+  if (fit.missing.censored) {
+    // A fit of what was heard alone is too near to that. Gross errors among the bounds widen the first one.
+    const Readings heard = fit.readings;
+    const Minimum of_heard = fit.least_squares;
+    std::vector<Eigen::Index> otherwise, before;
+    for (int round = 0; round < 6 && (round == 0 || otherwise != before); ++round) {
+      before = otherwise;
+      fit_censored(fit.readings, fit.missing.floor, fit.least_squares, otherwise, mean, box);
+      otherwise = lost_otherwise(fit.readings, fit.least_squares, search);
+    }
+    if (!otherwise.empty())
+      fit.missing = missing_but_for(otherwise, fit.readings, search, fit.least_squares, fit.missing);
+    if (fit.missing.censored) {
+      fit_censored(fit.readings, fit.missing.floor, fit.least_squares, otherwise, mean, box);
+    } else {
+      fit.readings = heard;
+      fit.least_squares = of_heard;
+      search.set(of_heard.parameters);
+    }
+  }
   fit.search = derivative_free_fit(fit.readings, mean, search.start(), box);
   if (fit.search.deviance < fit.least_squares.deviance - 1e-6)  // another local minimum: descend there as well
     fit.least_squares = least_squares(fit.readings, mean, fit.search.parameters, box);

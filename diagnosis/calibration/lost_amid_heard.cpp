@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -54,6 +55,7 @@ class Losses {
         links_(links),
         mean_(mean),
         reach_(thresholds::far_above_floor * sigma),
+        has_times_(!t.empty()),
         order_(links.size()) {
     std::iota(order_.begin(), order_.end(), Index{0});
     if (!t.empty())
@@ -78,13 +80,15 @@ class Losses {
     return result;
   }
 
-  // Stretches in which all links are silent at once.
+  // Stretches of time in which all links are silent.
   std::vector<Index> of_silences() const {
     std::vector<Index> result;
+    if (!has_times_) return result;
     for (auto first = order_.begin(); first != order_.end();) {
       first = std::find_if(first, order_.end(), [&](Index row) { return is_lost(row); });
       const auto last = std::find_if(first, order_.end(), [&](Index row) { return !is_lost(row); });
-      if (is_silence({first, last})) result.insert(result.end(), first, last);
+      if (first != last && is_silence({first, last}) && no_other_beside(first, last))
+        result.insert(result.end(), first, last);
       first = last;
     }
     return result;
@@ -100,6 +104,18 @@ class Losses {
   bool is_lost(Index row) const { return std::isnan(readings_.rssi[row]); }
   bool is_far_above(Index row, const Neighbours& of) const {
     return of.heard > 0 && mean_[row] + of.error / of.heard - readings_.floor_of(row) > reach_;
+  }
+
+  using Place = std::vector<Index>::const_iterator;
+
+  // True if each link is lost that has one of as many rows before and after.
+  bool no_other_beside(Place first, Place last) const {
+    std::set<Link> lost;
+    for (Place at = first; at != last; ++at) lost.insert(link_of(*at));
+    const auto knows = [&](Index row) { return lost.count(link_of(row)) > 0; };
+    const std::ptrdiff_t as_many = last - first;
+    return std::all_of(first - std::min(as_many, first - order_.begin()), first, knows) &&
+           std::all_of(last, last + std::min(as_many, order_.end() - last), knows);
   }
 
   // True if two links or more would be heard there, by what they are before and after.
@@ -128,6 +144,7 @@ class Losses {
   const std::vector<LinkPlace>& links_;
   const VectorXd& mean_;
   double reach_;
+  bool has_times_;
   std::vector<Index> order_;  // rows in order of time
   std::map<Link, std::vector<Index>> of_link_;
 };

@@ -10,8 +10,8 @@ namespace muster::diagnosis {
 
 // Rows, in order, that were lost far above the floor of `readings`: those that stand amid heard ones of their link, as
 // where packets collide, and stretches in which all links are silent at once, as before a radio sent or while the log
-// was down. Taken for bounds these would be gross errors. `links`: of each row; `t`: its time [s], or empty where rows
-// are in order; `mean` [dBm], `sigma` [dB]: of a fit to what was heard.
+// was down. Taken for bounds these would be gross errors. `links`: of each row; `t`: its time [s]; none: silences are
+// not told; `mean` [dBm], `sigma` [dB]: of a fit to what was heard.
 std::vector<Eigen::Index> lost_amid_heard(const Readings& readings, const std::vector<LinkPlace>& links,
                                           const std::vector<double>& t, const Eigen::VectorXd& mean, double sigma);
 

@@ -166,10 +166,11 @@ Diagnosis Diagnoser::summed_up(const inference::Result& result, const CauseSearc
         100 * m.bins.back().missing / m.bins.back().rows, m.bins.back().level));
   const std::size_t bounds = setup_.fitted.readings.censored.size(), missing = setup_.fitted.missing.count;
   if (bounds > 0 && bounds < missing)
-    out.notes.push_back(fmt::format(
-        "{} of {} missing readings stand amid others of their link that are far above the floor: they were lost "
-        "otherwise, and say nothing of the level there",
-        missing - bounds, missing));
+    out.notes.push_back(
+        fmt::format("{} of {} missing readings were lost otherwise than below the floor, amid others far above it or "
+                    "in a silence of "
+                    "all links: they say nothing of the level there",
+                    missing - bounds, missing));
   if (result.aside > 0)
     out.notes.push_back(
         fmt::format("{} readings, each five standard errors or more from what all others let expect, were set aside "

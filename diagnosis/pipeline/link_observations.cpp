@@ -51,7 +51,7 @@ ObservedLevels observed_levels(const Dataset& data, const ReceiverChecks& receiv
   const bool clips = receiver.top || receiver.bottom || !fitted.censored.empty();
   for (std::size_t i = 0; i < used.size(); ++i) {
     const double rssi = data.rssi[static_cast<std::size_t>(used[i])];
-    out.measured[static_cast<Index>(i)] = std::isnan(rssi) ? fitted.floor_of(used[i]) + out.bounds.half_code : rssi;
+    out.measured[static_cast<Index>(i)] = std::isnan(rssi) ? fitted.floor_of(used[i]) - out.bounds.half_code : rssi;
     if (clips) out.bounds.known.push_back(known_of(rssi, receiver));
   }
   return out;

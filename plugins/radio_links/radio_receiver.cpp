@@ -14,7 +14,7 @@ struct RadioReceiver {
       "quantisation, its own floor) is a matter of stages that modify link/*/rssi.\n"
       "When expectations are asked for the floor is not applied: a fit treats what was not received itself.\n"
       "Measured readings below it count as any other. Only a `sensitivity` that the world writes states a floor to a\n"
-      "fit and a diagnosis; the default does not.";
+      "fit and a diagnosis, and the default where a log ends at it.";
   static constexpr auto phase = MUSTER_RADIO;
   static constexpr Param params[] = {
       real("sensitivity", -95, -250, 50, "dBm", "below this nothing is received")};  // -95: a CC2420's data sheet

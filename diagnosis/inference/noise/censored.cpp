@@ -5,32 +5,17 @@
 #include <limits>
 
 #include "diagnosis/inference/noise/basis.hpp"
+#include "diagnosis/inference/noise/normal_tail.hpp"
 
 namespace muster::noise {
 namespace {
 
-// Hazard of the normal distribution, phi(z) / (1 - Phi(z)); its asymptote where the tail would underflow.
-double hazard(double z) {
-  if (z > 30) return z + 1 / z;
-  return std::exp(-z * z / 2) / std::sqrt(2 * M_PI) / (0.5 * std::erfc(z / std::sqrt(2.0)));
-}
-
-double log_above(double z) { return std::log(0.5 * std::erfc(z / std::sqrt(2.0))); }
-
-// The standard normal variable that as large a share of all lies above as of those above `end` lies above z. Newton's
-// method on the logarithm of that share, which is concave: from z it goes down and never too far.
+// The standard normal variable that as large a share of all lies above as of those above `end` lies above z.
 double of_same_rank(double z, double end) {
   constexpr double most = 8, least = -4;  // standard deviations
   if (end < least) return z;
   z = std::clamp(z, std::min(end, most), most);
-  const double share = log_above(z) - log_above(std::min(end, most));
-  double x = z;
-  for (int k = 0; k < 30 && x > least; ++k) {
-    const double step = (log_above(x) - share) / hazard(x);
-    x += step;
-    if (std::abs(step) < 1e-9) break;
-  }
-  return std::max(x, least);
+  return of_log_share(log_above(z) - log_above(std::min(end, most)), z, least);
 }
 
 }  // namespace

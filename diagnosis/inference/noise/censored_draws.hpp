@@ -23,12 +23,6 @@ class CensoredDraws {
   void sweep(uint64_t number, const Eigen::VectorXd& mean, Eigen::VectorXd& filled) const;
 
  private:
-  struct Part {  // of a reading: itself, or where it has a twin their mean, and half their difference
-    Index row;
-    double share;  // change of it by the reading's
-    double error;
-  };
-  std::vector<Part> parts_of(Index reading, const Eigen::VectorXd& error) const;
   double variance_of(Index row) const;  // of its readings about its mean
 
   const Eigen::VectorXd& readings_;

@@ -92,20 +92,6 @@ Rows Rows::ended_where(const Eigen::VectorXd& effect, double step, std::vector<I
   return result;
 }
 
-Index Rows::difference_of(Index row) const {
-  return means() + (std::lower_bound(mean_row_.begin(), mean_row_.end(), row) - mean_row_.begin());
-}
-
-Index Rows::twin_of(Index reading) const {
-  const Index row = row_of_[static_cast<std::size_t>(reading)];
-  if (twins_.empty() || !std::binary_search(mean_row_.begin(), mean_row_.end(), row)) return -1;
-  const bool second = is_second_twin(reading);
-  const std::vector<Index>& own = second ? twins_ : order_;
-  const std::vector<Index>& others = second ? order_ : twins_;
-  const auto place = std::find(own.begin() + first_of(row), own.begin() + end_of(row), reading);
-  return others[static_cast<std::size_t>(place - own.begin())];
-}
-
 Eigen::MatrixXd Rows::mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
   Eigen::MatrixXd result(size(), columns.cols());
   const auto sum_of = [&](const std::vector<Index>& readings, Index row, Index column) {

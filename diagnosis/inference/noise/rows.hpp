@@ -62,8 +62,6 @@ class Rows {
   bool is_difference(Index row) const { return row >= means(); }
   const std::vector<Index>& with_twins() const { return mean_row_; }  // rows of means of twins
   bool is_second_twin(Index reading) const { return !second_.empty() && second_[static_cast<std::size_t>(reading)]; }
-  Index difference_of(Index row) const;                         // the row of differences of a row with twins
-  Index twin_of(Index reading) const;                           // -1: it has none
   const std::vector<Index>& row_of() const { return row_of_; }  // the row of means; one a reading
   // A reading of the row, for values that all its readings share. Of a row of differences: a second twin.
   Index example(Index row) const { return seen_by(row, first_of(row)); }

@@ -303,7 +303,10 @@ struct ScoredModel {
 };
 
 ScoredModel scored_model(ModelState& state) {
-  if (!state.terms.empty() && state.problem().bounds.any()) state.impute(4);
+  if (!state.terms.empty() && state.problem().bounds.any()) {
+    state.impute(4);
+    state.refit(2);  // the noise is compared with that beside a lead, which is fitted to the same draws
+  }
   const Eigen::MatrixXd design = state.design();
   WhitenedModel model = state.whitened_model(design);
   state.renew_depending(model.coefficients(design.cols()));

@@ -113,10 +113,7 @@ ModelState::ModelState(const Problem& problem, const Options& options)
   families = noise::fit_families(field_, y_, base_, options_.prior);
   fit = families[0];
   if (problem_.bounds.any()) {
-    for (int round = 0; round < thresholds::rounds_of_censored; ++round) {
-      draw_censored();
-      refit();
-    }
+    fit_to_draws();
     families = noise::fit_families(field_, y_, base_, options_.prior);
   }
   for (const Candidate& candidate : problem.candidates) entries_.push_back(entry(candidate));
@@ -124,6 +121,10 @@ ModelState::ModelState(const Problem& problem, const Options& options)
   fixed_ = entries_.size();
   correlate_over_time();
   fit = families[0];
+  if (time_unit_ > 0 && problem_.bounds.any()) {
+    fit_to_draws();
+    families[0] = fit;
+  }
 }
 
 noise::Sites ModelState::sites_of(const noise::Rows& rows) const {
@@ -198,14 +199,31 @@ void ModelState::impute(int rounds) {
 }
 
 void ModelState::draw_censored() {
+  const noise::Bounds& bounds = problem_.bounds;
   const Eigen::MatrixXd at_readings = design_of_readings(), at_rows = design();
-  const noise::Whitener& whitener = whitener_at(fit.covariance);
-  const Eigen::VectorXd readings = aside_.size() > 0 ? Eigen::VectorXd(problem_.measured - aside_) : problem_.measured;
-  const noise::CensoredDraws draws(readings, problem_.bounds, rows_, field_, whitener);
-  for (uint64_t sweep = 0; sweep < thresholds::sweeps_of_censored; ++sweep) {
-    const noise::Whitened at = noise::whitened(whitener, y_, at_rows, options_.prior);
-    draws.sweep(sweep, at_readings * at.basis.coefficients(at.basis.q.transpose() * at.y, at_rows.cols()), measured_);
+  const noise::Whitener whitener = whitener_at(fit.covariance);
+  const noise::CensoredDraws draws(problem_.measured, bounds, rows_, field_, whitener);
+  const noise::Basis basis = noise::whitened(whitener, y_, at_rows, options_.prior).basis;
+  Eigen::VectorXd mean;
+  for (uint64_t k = 0; k < thresholds::sweeps_of_censored; ++k) {
+    mean = at_readings * basis.coefficients(basis.q.transpose() * whitener(y_).col(0), at_rows.cols());
+    for (Index i = 0; k == 0 && i < errors_of_draws_.size(); ++i) {  // a new mean moves the draws along
+      const auto at = static_cast<std::size_t>(i);
+      const double reading = problem_.measured[i];
+      if (bounds.is_bound(at))
+        measured_[i] =
+            std::clamp(mean[i] + errors_of_draws_[i], bounds.lowest(at, reading), bounds.highest(at, reading));
+    }
+    draws.sweep(sweeps_++, mean, measured_);
     y_ = rows_.mean(measured_);
+  }
+  errors_of_draws_ = measured_ - mean;
+}
+
+void ModelState::fit_to_draws() {
+  for (int round = 0; round < thresholds::rounds_of_censored; ++round) {
+    draw_censored();
+    refit();
   }
 }
 

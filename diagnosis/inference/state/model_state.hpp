@@ -143,6 +143,7 @@ class ModelState {
   noise::Field field_of(const noise::Rows& rows) const;
   noise::Sites sites_of(const noise::Rows& rows) const;
   void draw_censored();
+  void fit_to_draws();  // alternates draws of the censored readings and the noise
   void correlate_over_time();
   Eigen::MatrixXd likeliest_in_time() const;
   void climb(const Candidate& candidate, const WhitenedModel& model, Eigen::VectorXd& theta) const;
@@ -161,7 +162,9 @@ class ModelState {
   mutable std::deque<noise::Whitener> whiteners_;     // of the last models: most are whitened at one covariance
   Eigen::MatrixXd base_;
   Eigen::VectorXd measured_, y_;
-  Eigen::VectorXd aside_;  // by which readings that were set aside are off; empty: none was
+  Eigen::VectorXd aside_;            // by which readings that were set aside are off; empty: none was
+  Eigen::VectorXd errors_of_draws_;  // of the readings beside the mean with which the censored ones were drawn last
+  uint64_t sweeps_ = 0;              // of the Gibbs sampler so far: each has numbers of its own
   std::vector<Entry> entries_;
   std::size_t fixed_ = 0;  // entries before those that depend on the model
   noise::Sheet normals_;

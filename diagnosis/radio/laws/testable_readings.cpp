@@ -58,6 +58,17 @@ ExpectedLevels expected_levels(const LawSources& s, const Diagnosis& found) {
   return result;
 }
 
+// Level as received below which readings are lost, dBm; minus infinity where none is known, or weaker ones are heard.
+double floor_of(const LawSources& s) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Readings& readings = s.fit.readings;
+  if (s.fit.missing.censored) return readings.floor;
+  const VectorXd received = readings.received(readings.rssi);
+  const double weakest = received.array().isNaN().select(infinity, received).minCoeff();
+  const double known = (s.end ? s.end : silent_below(s.model.simulation(), weakest)).value_or(-infinity);
+  return weakest < known - thresholds::reaches_a_floor ? -infinity : known;
+}
+
 }  // namespace
 
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
@@ -70,20 +81,15 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd filled = left.array().isNaN().select(0, left);
   const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
-  const Readings& readings = s.fit.readings;
-  const VectorXd received = readings.received(readings.rssi);
-  const double weakest = received.array().isNaN().select(std::numeric_limits<double>::infinity(), received).minCoeff();
-  const std::optional<double> floor = s.fit.missing.censored ? readings.floor
-                                      : s.end                ? s.end
-                                                             : silent_below(s.model.simulation(), weakest);
-  if (!s.state.problem().bounds.any() && !floor) return result;
+  const double floor = floor_of(s);
+  if (!s.state.problem().bounds.any() && std::isinf(floor)) return result;
   const ExpectedLevels expected = expected_levels(s, found);
   for (Index i = 0; i < result.size(); ++i) {
     const double reach = thresholds::near_clip * expected.sd[i], mean = expected.mean[i];
     const auto near = [&](const std::optional<Clip>& clip, double side) {
       return clip && side * (clip->level - mean) < reach;
     };
-    const bool may_be_lost = floor && mean - readings.referred_to(*floor, s.used[static_cast<std::size_t>(i)]) < reach;
+    const bool may_be_lost = mean - s.fit.readings.referred_to(floor, s.used[static_cast<std::size_t>(i)]) < reach;
     if (may_be_lost || near(found.receiver.top, 1) || near(found.receiver.bottom, -1)) result[i] = std::nan("");
   }
   return result;

@@ -27,7 +27,7 @@ namespace {
 bool holds(const Instance& instance, const std::optional<double>& end) {
   if (is_stated(instance)) return true;
   const double level = clip_level(instance);
-  return end && *end >= level && *end < level + thresholds::reaches_a_floor;
+  return end && *end >= level && *end <= level + thresholds::reaches_a_floor;
 }
 
 }  // namespace

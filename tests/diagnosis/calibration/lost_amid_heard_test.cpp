@@ -98,6 +98,14 @@ TEST(LostAmidHeard, SilencesOfAllLinksAreNoBounds) {
   weak.mean = weak.readings.rssi.array().isNaN().select(-85, weak.readings.rssi);
   weak.mean(Eigen::seq(0, 79, 2)).setConstant(-70);
   EXPECT_EQ(weak.otherwise(), 0u);
+  Two without_times;
+  without_times.t.clear();
+  EXPECT_EQ(without_times.otherwise(), 0u);
+  Two passed;  // three of a scan of ten, in whose way something stands
+  for (std::size_t i = 0; i < passed.links.size(); ++i) passed.links[i].radio_a = static_cast<int>(10 + i % 10);
+  passed.readings.rssi.setConstant(-70);
+  passed.readings.rssi.segment(33, 3).setConstant(std::nan(""));
+  EXPECT_EQ(passed.otherwise(), 0u);
   Two one;  // the other is heard all the while: something stands in the way
   one.readings.rssi(Eigen::seq(1, 79, 2)).setConstant(-70);
   EXPECT_EQ(one.otherwise(), 0u);

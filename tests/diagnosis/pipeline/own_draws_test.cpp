@@ -134,6 +134,23 @@ TEST(OwnDraws, NothingIsWrongWherePacketsCollideBesides) {
   }
 }
 
+// A log that keeps only what was heard, of a receiver that the world writes and of one by default.
+TEST(OwnDraws, NothingIsWrongWhereTheLogKeepsWhatWasHeard) {
+  for (const int seed : {31, 32, 33, 34}) {
+    SCOPED_TRACE(seed);
+    const Scratch scratch;
+    const std::filesystem::path world =
+        far_off(scratch, seed, -42, seed % 2 ? "" : "<radio.receiver sensitivity=\"-95\"/>");
+    std::istringstream log(contents(drawn_by(scratch, world)));
+    std::ofstream out(scratch / "measured.csv");
+    for (std::string row; std::getline(log, row);) {
+      if (row.back() != ',') out << row << '\n';
+    }
+    out.close();
+    EXPECT_EQ(names_in_words(named_causes(diagnose(world, scratch / "measured.csv", plugins))), "silent");
+  }
+}
+
 // All scatter together, which is seen where the laws of single readings cannot be tested.
 TEST(OwnDraws, ScatterAsTheWorldSays) {
   const Scratch scratch;
