@@ -65,9 +65,9 @@ LinkLayout layout_of(LinkReadings readings, const ObservedColumns& observed, boo
 
 // Levels as they were received, before they were referred to one power.
 VectorXd received_in(const Dataset& data) {
-  const VectorXd levels = Eigen::Map<const VectorXd>(data.rssi.data(), static_cast<Index>(data.rssi.size()));
-  if (data.referred.empty()) return levels;
-  return levels + Eigen::Map<const VectorXd>(data.referred.data(), levels.size());
+  VectorXd levels = Eigen::Map<const VectorXd>(data.rssi.data(), static_cast<Index>(data.rssi.size()));
+  if (!data.referred.empty()) levels += Eigen::Map<const VectorXd>(data.referred.data(), levels.size());
+  return levels;
 }
 
 CauseSearch candidates_of(const DiagnosisSetup& at, const LinkSearchWorld& world) {
