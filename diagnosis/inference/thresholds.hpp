@@ -70,7 +70,8 @@ inline constexpr double edge_share = 1.0 / 3;
 inline constexpr double excluded_nats = 3;
 // nats; by which a family without the columns may be worse in the marginal p-value; chosen; none
 inline constexpr double hopeless_start_nats = 6;
-// rounds; in which censored readings are drawn and the noise is fitted to them; chosen; CensoredDraws.LeaveTheNoiseAsWideAsItIs
+// rounds; in which censored readings are drawn and the noise is fitted to them; chosen;
+// CensoredDraws.LeaveTheNoiseAsWideAsItIs
 inline constexpr int rounds_of_censored = 5;
 // sweeps; of the Gibbs sampler in each; chosen; CensoredDraws.LeaveTheNoiseAsWideAsItIs
 inline constexpr uint64_t sweeps_of_censored = 6;
