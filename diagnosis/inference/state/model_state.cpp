@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "diagnosis/inference/noise/censored_draws.hpp"
 #include "diagnosis/inference/noise/columns.hpp"
 #include "diagnosis/inference/noise/exact_covariance.hpp"
 #include "diagnosis/inference/noise/over_time.hpp"
@@ -188,43 +187,6 @@ Eigen::MatrixXd ModelState::design_of_readings() const {
 Eigen::VectorXd ModelState::mean_of_readings() const {
   const Eigen::MatrixXd at_readings = design_of_readings();
   return at_readings * whitened_model(design()).coefficients(at_readings.cols());
-}
-
-void ModelState::impute(int rounds) {
-  measured_ = noise::imputed(problem_.measured, problem_.bounds,
-                             problem_.bounds.changes() ? design_of_readings() : problem_.base, rounds);
-  if (aside_.size() > 0) measured_ -= aside_;
-  y_ = rows_.mean(measured_);
-  if (!families.empty() && problem_.bounds.any()) draw_censored();
-}
-
-void ModelState::draw_censored() {
-  const noise::Bounds& bounds = problem_.bounds;
-  const Eigen::MatrixXd at_readings = design_of_readings(), at_rows = design();
-  const noise::Whitener whitener = whitener_at(fit.covariance);
-  const noise::CensoredDraws draws(problem_.measured, bounds, rows_, field_, whitener);
-  const noise::Basis basis = noise::whitened(whitener, y_, at_rows, options_.prior).basis;
-  Eigen::VectorXd mean;
-  for (uint64_t k = 0; k < thresholds::sweeps_of_censored; ++k) {
-    mean = at_readings * basis.coefficients(basis.q.transpose() * whitener(y_).col(0), at_rows.cols());
-    for (Index i = 0; k == 0 && i < errors_of_draws_.size(); ++i) {  // a new mean moves the draws along
-      const auto at = static_cast<std::size_t>(i);
-      const double reading = problem_.measured[i];
-      if (bounds.is_bound(at))
-        measured_[i] =
-            std::clamp(mean[i] + errors_of_draws_[i], bounds.lowest(at, reading), bounds.highest(at, reading));
-    }
-    draws.sweep(sweeps_++, mean, measured_);
-    y_ = rows_.mean(measured_);
-  }
-  errors_of_draws_ = measured_ - mean;
-}
-
-void ModelState::fit_to_draws() {
-  for (int round = 0; round < thresholds::rounds_of_censored; ++round) {
-    draw_censored();
-    refit();
-  }
 }
 
 Eigen::MatrixXd ModelState::units_of(const std::vector<Index>& rows) const {

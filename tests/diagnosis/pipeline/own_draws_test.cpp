@@ -136,11 +136,11 @@ TEST(OwnDraws, NothingIsWrongWherePacketsCollideBesides) {
 
 // A log that keeps only what was heard, of a receiver that the world writes and of one by default.
 TEST(OwnDraws, NothingIsWrongWhereTheLogKeepsWhatWasHeard) {
-  for (const int seed : {31, 32, 33, 34}) {
+  for (const int seed : {31, 32, 37, 38}) {
     SCOPED_TRACE(seed);
     const Scratch scratch;
     const std::filesystem::path world =
-        far_off(scratch, seed, -42, seed % 2 ? "" : "<radio.receiver sensitivity=\"-95\"/>");
+        far_off(scratch, seed, -36, seed % 2 ? "" : "<radio.receiver sensitivity=\"-95\"/>");
     std::istringstream log(contents(drawn_by(scratch, world)));
     std::ofstream out(scratch / "measured.csv");
     for (std::string row; std::getline(log, row);) {
