@@ -191,6 +191,16 @@ std::string parted_by_commas(const Arguments& arguments, const std::string& opti
   return parse_integer(words.substr(0, words.find(' '))) == count ? "; did you mean " + option + meant + "?" : "";
 }
 
+// `; --wide takes "hall.xml"; expected hall.xml --wide TEXT` where an option took the missing world for its value.
+std::string taken_by_an_option(const CLI::App& app) {
+  for (const CLI::Option* each : app.get_options()) {
+    if (each->get_positional() || each->count() == 0 || !each->results().back().ends_with(".xml")) continue;
+    const std::string name = each->get_name(), word = each->results().back();
+    return "; " + name + " takes " + quote(word) + "; expected " + word + ' ' + name + ' ' + each->get_type_name();
+  }
+  return "";
+}
+
 }  // namespace
 
 UnknownOption::UnknownOption(std::string of_verb, std::string name, const std::string& remedy, bool is_guess_,
@@ -313,7 +323,8 @@ void CommandLine::parse(const Arguments& arguments) {
       refuse(quote(words[0]) + " is one word too many, and " + option + " is missing; did you mean " + option + " " +
              words[0] + "?");
     const CLI::Option* missing = app_->get_option_no_throw(option);
-    refuse(what + (missing && !missing->get_description().empty() ? ": " + missing->get_description() : ""));
+    refuse(what + (missing && !missing->get_description().empty() ? ": " + missing->get_description() : "") +
+           (option == "world" ? taken_by_an_option(*app_) : ""));
   } catch (const CLI::ArgumentMismatch& e) {
     const std::string what = e.what();
     const auto once = what.find(": At Most 1 required");

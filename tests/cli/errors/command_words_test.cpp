@@ -24,6 +24,8 @@ TEST(CommandWords, SayWhatWasMeant) {
                         "you mean --data m.csv?"));
   EXPECT_THAT(words_said_by({"run", "world.xml", "world.xml"}),
               HasSubstr("one word too many: run takes one world; muster compare A B runs two"));
+  EXPECT_THAT(words_said_by({"run", "--wide", "world.xml", "--out", "x"}),
+              HasSubstr("; --wide takes \"world.xml\"; expected world.xml --wide TEXT"));
   EXPECT_THAT(words_said_by({"run", "World.xml"}), HasSubstr("World.xml: no such file; did you mean \"world.xml\"?"));
   EXPECT_THAT(words_said_by({"probe", "world.xml", "a", "b", "--at", "500"}),
               HasSubstr("--at: 500 s is after the end of the run at 2 s; expected at most 2 s"));
