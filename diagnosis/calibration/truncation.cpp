@@ -14,14 +14,14 @@ double below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 bool Truncation::is_abrupt() const { return near > thresholds::near_a_floor * expected; }
 
-Truncation truncation_of(const Eigen::VectorXd& heard, const Eigen::VectorXd& mean, double sigma, double half_code,
-                         const Eigen::VectorXd& weight) {
+Truncation truncation_of(const Eigen::VectorXd& heard, const Eigen::VectorXd& mean, const Eigen::VectorXd& sigma,
+                         double half_code) {
   Truncation result{.floor = heard.minCoeff()};
   const double end = result.floor - half_code, near = end + thresholds::above_floor;
   for (Eigen::Index i = 0; i < heard.size(); ++i) {
-    const double lost = below((end - mean[i]) / sigma), kept = std::max(1 - lost, 1e-12);
-    result.evidence -= (weight.size() > 0 ? weight[i] : 1) * std::log(kept);
-    result.expected += 1 - std::min(below((mean[i] - near) / sigma) / kept, 1.0);
+    const double lost = below((end - mean[i]) / sigma[i]), kept = std::max(1 - lost, 1e-12);
+    result.evidence -= std::log(kept);
+    result.expected += 1 - std::min(below((mean[i] - near) / sigma[i]) / kept, 1.0);
     result.near += heard[i] < near;
   }
   return result;

@@ -17,11 +17,11 @@ struct Truncation {
   bool is_abrupt() const;
 };
 
-// `mean`, `sigma`: of the levels of `heard` [dBm], none of which is NaN; `half_code`: half a step between readings, dB.
-// Without a floor, and where readings are independent, `evidence` has the exponential distribution of mean 1: the
-// probability that none lies below the weakest is the product over all readings of their chances to lie above it.
-// `weight`: of each reading in that, as many independent ones as it stands for; none: one.
-Truncation truncation_of(const Eigen::VectorXd& heard, const Eigen::VectorXd& mean, double sigma, double half_code,
-                         const Eigen::VectorXd& weight = {});
+// `mean`, `sigma`: of the level of each of `heard` [dBm], none of which is NaN, given those before it; `half_code`:
+// half a step between readings, dB. Without a floor `evidence` has the exponential distribution of mean 1 where
+// readings are independent, and about that elsewhere: the probability that none lies below the weakest is the product
+// over all readings of their chances to lie above it, given those before.
+Truncation truncation_of(const Eigen::VectorXd& heard, const Eigen::VectorXd& mean, const Eigen::VectorXd& sigma,
+                         double half_code);
 
 }  // namespace muster::diagnosis

@@ -27,7 +27,8 @@ inline constexpr double row_way = 1.0;
 inline constexpr double log_exact_variance = -5;
 // dB; change of the expected level at which a row ends; chosen; LinkRows.EndWhereAWallChangesTheLevel
 inline constexpr double row_level = 1.5;
-// share; of readings that are lost, and more where less is expected, from which no cause is sure; chosen; none
+// share; of readings that are lost for no floor that is known, and more where less is expected, from which no cause is
+// sure; chosen; none
 inline constexpr double biased_share = 0.2;
 // m; by which a radio must climb for what follows heights to be seen; chosen; none
 inline constexpr double least_climb = 0.3;
@@ -171,6 +172,9 @@ inline constexpr double fewest_crossings = 30;
 inline constexpr double rising_share = 0.15;
 // standard errors; of that rise; chosen; none
 inline constexpr double rising_errors = 5;
+// share; more that is lost at a level than at the highest, where single readings are not tested for their law; chosen;
+// OwnDraws.NothingIsWrongWhereAFloorSetsInOverSomeDecibels
+inline constexpr double biased_bin = 0.05;
 // standard deviations; by which a shadow that the model does not know may be deeper than one it knows; chosen;
 // Survey.LossesBelowTheStatedFloorAreNoOtherFloor
 inline constexpr double deep_shadow = 4;
@@ -192,8 +196,8 @@ inline constexpr double censored_evidence = 10;
 // share; of losses that the floor explains, to take them for censored; chosen;
 // MissingData.AFloorBesideMuchRandomLossCutsLevelsOff
 inline constexpr double censored_share = 0.5;
-// readings; near a floor, as many independent ones as tell how they scatter; chosen; none
-inline constexpr double independent_near = 10;
+// cells; with readings near a floor, as many as tell how these scatter; chosen; none
+inline constexpr std::size_t independent_near = 10;
 // dB; above a floor, where readings must be as many as expected; chosen; none
 inline constexpr double above_floor = 3;
 // dB; of the weakest reading above the world's own floor, to take the readings for those that it leaves; chosen;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "diagnosis/calibration/truncation.hpp"
 #include "diagnosis/inference/state/null_tail.hpp"
+#include "diagnosis/radio/laws/testable_readings.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/stated_clip.hpp"
 #include "diagnosis/radio/thresholds.hpp"
@@ -111,59 +113,83 @@ bool add_silence(const LawSources& s, const MissingData& missing, Diagnosis& fou
   return true;
 }
 
+// Of each reading, the cell of both its ends whose readings share their shadowing. Both directions are one link, but
+// over time, where each stream may have a level of its own.
+std::vector<int> cells_of(const LawSources& s) {
+  const bool of_places = s.state.time_unit() == 0;
+  const double alike = of_places ? noise::stated_by(s.state.fit.covariance, s.state.within()).decorrelation : 0;
+  const double side = std::max(alike / 2, 0.1);  // m
+  const LinkReadings& r = s.readings;
+  std::map<std::vector<long>, int> number;
+  std::vector<int> result;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const bool as_it_is = !of_places || r.tx[k] < r.rx[k];
+    std::vector<long> place{as_it_is ? r.tx[k] : r.rx[k], as_it_is ? r.rx[k] : r.tx[k]};
+    for (const Eigen::Matrix3Xd* ends : {as_it_is ? &r.tx_at : &r.rx_at, as_it_is ? &r.rx_at : &r.tx_at}) {
+      for (const double at : ends->col(i)) place.push_back(std::lround(at / side));
+    }
+    result.push_back(number.try_emplace(std::move(place), static_cast<int>(number.size())).first->second);
+  }
+  return result;
+}
+
+// Share of the field's variance that readings of a cell have in common. On the way they are a quarter of the
+// decorrelation distance apart; what wanders over time tells nothing after a while.
+double share_of_cells(const LawSources& s) {
+  const double fixed = noise::fixed_share(s.state.fit.covariance.family);
+  if (s.state.time_unit() > 0) return fixed;
+  return fixed + (1 - fixed) * (repeat_places(s.readings) ? 1 : std::exp(-0.25));
+}
+
+// Levels as the model with its noise lets expect them.
+struct Levels {
+  VectorXd mean;               // of each reading, dBm
+  std::vector<int> cell;       // of each
+  double shared = 0, own = 0;  // variances of a cell, and of readings within it, dB^2
+};
+
 // Scatter of the readings whose mean is near the weakest one: less than that of all, where only those above a floor
 // are, or where they are of one place.
-double scatter_near(double floor, const VectorXd& heard, const VectorXd& mean, const VectorXd& weight, double of_all) {
-  double count = 0, sum = 0, squares = 0, independent = 0;
+double scatter_near(double floor, const VectorXd& heard, const Levels& levels, double of_all) {
+  double count = 0, sum = 0, squares = 0;
+  std::set<int> independent;
   for (Eigen::Index i = 0; i < heard.size(); ++i) {
-    if (mean[i] - floor > thresholds::near_clip * of_all) continue;
-    const double error = heard[i] - mean[i];
+    if (levels.mean[i] - floor > thresholds::near_clip * of_all) continue;
+    const double error = heard[i] - levels.mean[i];
     count += 1;
-    independent += weight[i];
+    independent.insert(levels.cell[static_cast<std::size_t>(i)]);
     sum += error;
     squares += error * error;
   }
-  return independent < thresholds::independent_near
+  return independent.size() < thresholds::independent_near
              ? of_all
              : std::min(of_all, std::sqrt((squares - sum * sum / count) / (count - 1)));
 }
 
-// Readings of a link at one place share its shadowing, and are not as many chances to lie below a floor: each stands
-// for the share of an independent one that their design effect leaves (Kish 1965). Far from the mean, where a floor is,
-// the correlation of chances is about the square of that of levels.
-VectorXd chances_of(const LawSources& s) {
-  const noise::Covariance& noise = s.state.fit.covariance;
-  const double shared = noise.field_variance() / (noise.field_variance() + noise.reading_variance());
-  const double alike = s.state.time_unit() > 0 ? 0 : noise::stated_by(noise, s.state.within()).decorrelation;
-  const double cell = std::max(alike / 2, 0.1);  // m
-  const LinkReadings& r = s.readings;
-  std::map<std::vector<long>, double> count;
-  std::vector<double*> of;
-  for (Eigen::Index i = 0; i < r.size(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const bool as_it_is = r.tx[k] < r.rx[k];  // both directions are one link
-    std::vector<long> place{std::min(r.tx[k], r.rx[k]), std::max(r.tx[k], r.rx[k])};
-    for (const Eigen::Matrix3Xd* ends : {as_it_is ? &r.tx_at : &r.rx_at, as_it_is ? &r.rx_at : &r.tx_at}) {
-      for (const double at : ends->col(i)) place.push_back(std::lround(at / cell));
-    }
-    of.push_back(&count[place]);
-    *of.back() += 1;
+// Each reading is expected as those before it in its cell tell, so that all are the product of their chances.
+Truncation truncation_at_the_end(const VectorXd& heard, const Levels& levels, double step) {
+  const double of_all =
+      std::max(std::sqrt((heard - levels.mean).squaredNorm() / static_cast<double>(heard.size())), 0.1);
+  const double near = std::max(scatter_near(heard.minCoeff(), heard, levels, of_all), 0.1);
+  const double scale = near * near / (levels.shared + levels.own), shared = scale * levels.shared,
+               own = scale * levels.own;
+  std::map<int, std::pair<double, double>> before;  // number and sum of the errors in a cell
+  VectorXd mean(heard.size()), sigma(heard.size());
+  for (Eigen::Index i = 0; i < heard.size(); ++i) {
+    auto& [count, sum] = before[levels.cell[static_cast<std::size_t>(i)]];
+    const double whole = own + count * shared;
+    mean[i] = levels.mean[i] + shared * sum / whole;
+    sigma[i] = std::sqrt(own + shared * own / whole);
+    count += 1;
+    sum += heard[i] - levels.mean[i];
   }
-  VectorXd result(r.size());
-  for (Eigen::Index i = 0; i < r.size(); ++i)
-    result[i] = 1 / (1 + shared * shared * (*of[static_cast<std::size_t>(i)] - 1));
-  return result;
-}
-
-Truncation truncation_at_the_end(const VectorXd& heard, const VectorXd& mean, const VectorXd& weight, double step) {
-  const double of_all = std::sqrt((heard - mean).squaredNorm() / static_cast<double>(heard.size()));
-  const double sigma = scatter_near(heard.minCoeff(), heard, mean, weight, std::max(of_all, 0.1));
-  return truncation_of(heard, mean, std::max(sigma, 0.1), step / 2, weight);
+  return truncation_of(heard, mean, sigma, step / 2);
 }
 
 // Monte Carlo test: true if one of the fitted world's own draws ends as abruptly: its receiver may hear no less. The
 // model is fitted to each: where a field is smooth and exact, that leaves whole regions off by as much as the field is.
-bool ends_by_itself(const LawSources& s, double evidence, const VectorXd& weight, const Diagnosis& found) {
+bool ends_by_itself(const LawSources& s, double evidence, const Levels& levels, const Diagnosis& found) {
   const Eigen::MatrixXd design = s.state.design();
   const noise::Whitener whitener = s.state.whitened_model(design).whitener;
   for (uint64_t k = 0; k < thresholds::pile_draws; ++k) {
@@ -180,7 +206,9 @@ bool ends_by_itself(const LawSources& s, double evidence, const VectorXd& weight
       if (std::isfinite(drawn[i]) && std::isfinite(mean[i])) heard.push_back(i);
     }
     if (heard.empty()) continue;
-    const Truncation end = truncation_at_the_end(drawn(heard), mean(heard), weight(heard), found.receiver.step);
+    Levels of_draw{mean(heard), {}, levels.shared, levels.own};
+    for (const Eigen::Index i : heard) of_draw.cell.push_back(levels.cell[static_cast<std::size_t>(i)]);
+    const Truncation end = truncation_at_the_end(drawn(heard), of_draw, found.receiver.step);
     if (end.evidence * thresholds::beyond_drawn >= evidence) return true;
   }
   return false;
@@ -192,15 +220,17 @@ bool add_truncation(const LawSources& s, Diagnosis& found) {
   const std::vector<const Cause*> causes = clips_of(s, MUSTER_BELOW, true);
   if (causes.empty() || s.fit.missing.count > 0 || found.receiver.bottom) return false;
   const VectorXd heard = s.fit.readings.received(s.fit.readings.rssi)(s.used);
-  const VectorXd expected = heard - (s.state.problem().measured - s.state.mean_of_readings());
+  const noise::Covariance& noise = s.state.fit.covariance;
+  const double shared = noise.field_variance() * share_of_cells(s);
+  const Levels levels{heard - (s.state.problem().measured - s.state.mean_of_readings()), cells_of(s), shared,
+                      noise.field_variance() + noise.reading_variance() - shared};
   const double step = found.receiver.step;
-  const VectorXd weight = chances_of(s);
-  const Truncation end = truncation_at_the_end(heard, expected, weight, step);
+  const Truncation end = truncation_at_the_end(heard, levels, step);
   const double least = std::log(s.state.options().further_alpha / static_cast<double>(s.state.entries().size()));
   const double evidence = thresholds::joint_loss * end.evidence;
   const bool by_the_world = clips_at(s, MUSTER_BELOW, true, end.floor, step);
   if (by_the_world && stated_floor_of(s)) return false;
-  if (-evidence > least || !end.is_abrupt() || ends_by_itself(s, end.evidence, weight, found)) return false;
+  if (-evidence > least || !end.is_abrupt() || ends_by_itself(s, end.evidence, levels, found)) return false;
   found.end = end.floor;
   found.end_of_default = by_the_world;
   if (by_the_world) return false;

@@ -69,6 +69,16 @@ double floor_of(const LawSources& s) {
   return weakest < known - thresholds::reaches_a_floor ? -infinity : known;
 }
 
+// Expected level as received, dBm, below which more readings are lost than amid the strongest, for no floor that is
+// known, such as one that sets in over some decibels: those heard are not as single readings scatter.
+double biased_below(const MissingData& missing) {
+  if (missing.censored || !missing.rises()) return -std::numeric_limits<double>::infinity();
+  const auto share = [](const MissingData::Bin& bin) { return bin.missing / bin.rows; };
+  std::size_t k = missing.bins.size() - 1;
+  while (share(missing.bins[k - 1]) < share(missing.bins.back()) + thresholds::biased_bin) --k;  // the first is above
+  return (missing.bins[k - 1].level + missing.bins[k].level) / 2;
+}
+
 }  // namespace
 
 VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
@@ -81,15 +91,18 @@ VectorXd residual_of(const LawSources& s, const Diagnosis& found) {
   const VectorXd filled = left.array().isNaN().select(0, left);
   const VectorXd shift = s.state.left_by(s.state.design()) - rows.mean(filled);
   VectorXd result = left + rows.at_readings(shift);
-  const double floor = floor_of(s);
-  if (!s.state.problem().bounds.any() && std::isinf(floor)) return result;
+  const double floor = floor_of(s), biased = biased_below(s.fit.missing);
+  if (!s.state.problem().bounds.any() && std::isinf(floor) && std::isinf(biased)) return result;
   const ExpectedLevels expected = expected_levels(s, found);
   for (Index i = 0; i < result.size(); ++i) {
     const double reach = thresholds::near_clip * expected.sd[i], mean = expected.mean[i];
     const auto near = [&](const std::optional<Clip>& clip, double side) {
       return clip && side * (clip->level - mean) < reach;
     };
-    const bool may_be_lost = mean - s.fit.readings.referred_to(floor, s.used[static_cast<std::size_t>(i)]) < reach;
+    const auto referred = [&](double level) {
+      return s.fit.readings.referred_to(level, s.used[static_cast<std::size_t>(i)]);
+    };
+    const bool may_be_lost = mean - referred(floor) < reach || mean < referred(biased);
     if (may_be_lost || near(found.receiver.top, 1) || near(found.receiver.bottom, -1)) result[i] = std::nan("");
   }
   return result;

@@ -35,7 +35,9 @@ Log log_of(unsigned seed, const Kept& kept, double off = 0) {
   return {as_vector(heard), as_vector(mean)};
 }
 
-Truncation end_of(const Log& log) { return truncation_of(log.heard, log.mean, 2, 0); }
+Truncation end_of(const Log& log) {
+  return truncation_of(log.heard, log.mean, Eigen::VectorXd::Constant(log.heard.size(), 2), 0);
+}
 
 bool all(double) { return true; }
 
@@ -62,16 +64,6 @@ TEST(Truncation, OfMeansThatAreTooLowIsNotAbrupt) {
   const Truncation end = end_of(log_of(1, all, 12));
   EXPECT_GT(end.evidence, 30);
   EXPECT_FALSE(end.is_abrupt());
-}
-
-// Twenty readings of each place that are alike say what one of them does.
-TEST(Truncation, OfReadingsThatAreAlikeIsThatOfIndependentOnes) {
-  const Log log = log_of(3, all);
-  constexpr Eigen::Index alike = 20;
-  const Eigen::VectorXd heard = log.heard.transpose().replicate(alike, 1).reshaped(),
-                        mean = log.mean.transpose().replicate(alike, 1).reshaped();
-  const Eigen::VectorXd weight = Eigen::VectorXd::Constant(heard.size(), 1.0 / alike);
-  EXPECT_NEAR(truncation_of(heard, mean, 2, 0, weight).evidence, end_of(log).evidence, 1e-9);
 }
 
 }  // namespace

@@ -151,6 +151,32 @@ TEST(OwnDraws, NothingIsWrongWhereTheLogKeepsWhatWasHeard) {
   }
 }
 
+// A receiver that loses the more packets the weaker they are, over some decibels.
+TEST(OwnDraws, NothingIsWrongWhereAFloorSetsInOverSomeDecibels) {
+  const Stream random(key_of("packet errors"));
+  for (const int seed : {41, 42, 43, 44}) {
+    SCOPED_TRACE(seed);
+    const Scratch scratch;
+    const std::filesystem::path world = far_off(scratch, seed, -36, "<radio.receiver sensitivity=\"-110\"/>");
+    std::istringstream log(contents(drawn_by(scratch, world)));
+    std::ofstream out(scratch / "measured.csv");
+    std::string row;
+    std::getline(log, row);
+    out << row << '\n';
+    for (uint64_t i = 0; std::getline(log, row); ++i) {
+      const std::size_t last = row.rfind(',') + 1;
+      const bool heard =
+          last < row.size() && random.uniform(i) < 1 / (1 + std::exp(-(std::stod(row.substr(last)) + 92)));
+      out << (heard ? row : row.substr(0, last)) << '\n';
+    }
+    out.close();
+    const std::filesystem::path stated = far_off(scratch, seed, -36, "<radio.receiver sensitivity=\"-92\"/>");
+    const Diagnosis found = diagnose(stated, scratch / "measured.csv", plugins);
+    EXPECT_EQ(names_in_words(named_causes(found)), "silent");
+    for (const std::string& why : found.not_tested) EXPECT_FALSE(why.starts_with("effect.fading_law")) << why;
+  }
+}
+
 // All scatter together, which is seen where the laws of single readings cannot be tested.
 TEST(OwnDraws, ScatterAsTheWorldSays) {
   const Scratch scratch;
