@@ -75,6 +75,9 @@ inline constexpr double hopeless_start_nats = 6;
 inline constexpr int rounds_of_censored = 5;
 // sweeps; of the Gibbs sampler in each; chosen; CensoredDraws.LeaveTheNoiseAsWideAsItIs
 inline constexpr uint64_t sweeps_of_censored = 6;
+// draws; of censored readings nearer to a lead, of which a typical one is taken; chosen;
+// CensoredDraws.NearerToALeadGrantItItsGain
+inline constexpr std::size_t draws_of_a_lead = 5;
 // standard deviations; distance from a clip at which a reading is clear of it; chosen;
 // Search.NoFalseExponentOrDualSlopeForAFloor
 inline constexpr double clear_of_clip = 1.5;

@@ -207,6 +207,12 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
   if (place && lead.log_p > thresholds::log_p_beyond_edges && state.end_rows_at(lead.candidate(), lead.theta) > 0)
     lead.columns = state.columns_of(lead.candidate(), lead.theta);
   const std::size_t terms = state.terms.size();
+  std::optional<ModelState::Draws> drawn_without;
+  if (state.problem().bounds.any()) {
+    drawn_without = state.draws();
+    state.draw_towards(lead.columns, lead.candidate().design.whole);
+    state.refit(2);
+  }
   const Eigen::MatrixXd design = state.design();
   const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
   // The first finding must stand beside a longer field, and so must what was refused for it before.
@@ -225,6 +231,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
     } else {
       blocked.now.insert(trial.id);
     }
+    if (drawn_without) state.put_back(std::move(*drawn_without));
     return false;
   }
   const double before = state.fit.value;
@@ -268,6 +275,33 @@ std::vector<ScoredCandidate> closer_look(ModelState& state, const std::vector<Sc
   }
   by_evidence(places);
   return places;
+}
+
+// The lead that passes once the censored readings are drawn nearer to it: the best cause, or else the best smooth.
+std::optional<ScoredCandidate> passing_nearer_draws(ModelState& state, std::vector<ScoredCandidate> looked,
+                                                    const std::function<bool(const Candidate&)>& usable) {
+  std::erase_if(looked, [&](const ScoredCandidate& lead) {
+    return lead.log_p > std::log(thresholds::near_miss_p) || !usable(lead.candidate());
+  });
+  if (looked.size() > thresholds::most_near_misses)
+    looked.erase(looked.begin() + thresholds::most_near_misses, looked.end());
+  const Eigen::MatrixXd design = state.design();
+  const ModelState::Draws drawn_without = state.draws();
+  for (ScoredCandidate& lead : looked) {
+    lead.columns = state.columns_of(lead.candidate(), lead.theta);  // rows may have been split for another
+    state.draw_towards(lead.columns, lead.candidate().design.whole);
+    const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+    const Candidate& c = lead.candidate();
+    lead.gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
+    lead.evidence = state.evidence(c, lead.gain, lead.columns.cols(), false);
+    lead.log_p = state.log_p(c, lead.gain, lead.columns.cols(), true);
+    state.put_back(drawn_without);
+  }
+  std::erase_if(looked, [&](const ScoredCandidate& lead) { return lead.log_p >= state.threshold(); });
+  by_evidence(looked);
+  std::stable_partition(looked.begin(), looked.end(),
+                        [](const ScoredCandidate& lead) { return lead.candidate().kind == Kind::named; });
+  return looked.empty() ? std::nullopt : std::optional(std::move(looked.front()));
 }
 
 void enter_as_stated(ModelState& state, const ScoredCandidate& lead) {
@@ -342,6 +376,13 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
         const auto found = std::find_if(close.begin(), close.end(), passes);
         if (found != close.end()) {
           enter(state, *found, blocked, trials);
+          scored.reset();
+          continue;
+        }
+      }
+      if (passing.empty() && state.problem().bounds.any()) {
+        if (const auto nearer = passing_nearer_draws(state, looked, may_enter)) {
+          enter(state, *nearer, blocked, trials);
           scored.reset();
           continue;
         }

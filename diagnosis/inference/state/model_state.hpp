@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -97,6 +98,21 @@ class ModelState {
   Eigen::VectorXd mean_of_readings() const;
   // Imputes censored readings anew from the current model: draws of theirs, once the noise is known.
   void impute(int rounds);
+  // Draws censored readings part way between the present model and one with these columns (row means) as well. Draws of
+  // the present one hide what a lead gains, and draws of the other grant it. A log ratio of likelihoods is the integral
+  // of the expected log ratio of densities over all mixtures of both (path sampling: Gelman and Meng 1998), which the
+  // middle stands for: of columns that are `whole`, whose strength is known. Those whose strength is fitted to the
+  // draws would gain too much: with a share f of their effect in readings that tell nothing, (1 - f + f t)^2 instead of
+  // 1 - f where the mean is moved by t. They are equal at t = s / (1 + s), s^2 = 1 - f. A draw's own scatter gains,
+  // too: of several draws that is taken whose gain is nearest to the gain of what they have in common.
+  void draw_towards(const Eigen::MatrixXd& columns, bool whole = false);
+  // The censored readings as they are drawn now, with the noise that is fitted to them.
+  struct Draws {
+    Eigen::VectorXd measured, errors;
+    noise::Fit fit;
+  };
+  Draws draws() const;
+  void put_back(Draws draws);
   // Has rows count as what all others let expect of them. `model`: the present one, without them.
   void set_aside(const std::vector<Index>& rows, const WhitenedModel& model);
   // Has all count as measured again. Returns how many readings had been set aside.
@@ -143,6 +159,11 @@ class ModelState {
   noise::Field field_of(const noise::Rows& rows) const;
   noise::Sites sites_of(const noise::Rows& rows) const;
   void draw_censored();
+  // Sweeps about this mean (one a reading), to which the errors of the last draws are moved along.
+  void draw_about(const std::function<Eigen::VectorXd()>& mean_given_draws, uint64_t sweeps);
+  std::function<Eigen::VectorXd()> mean_with(const Eigen::MatrixXd& columns) const;  // fitted to the draws each time
+  // Of several draws about this mean, the one in which the columns gain what all have in common.
+  void take_typical_draw(const Eigen::VectorXd& mean, const Eigen::MatrixXd& columns);
   void fit_to_draws();  // alternates draws of the censored readings and the noise
   void correlate_over_time();
   Eigen::MatrixXd likeliest_in_time() const;

@@ -167,5 +167,94 @@ TEST(CensoredDraws, LeaveTheNoiseAsWideAsItIs) {
   }
 }
 
+// Twice the log likelihood of the known readings and the bounds in white noise, at its highest (Tobit: Tobin 1958).
+double tobit(const Eigen::VectorXd& readings, const Bounds& bounds, const Eigen::MatrixXd& design, double sd) {
+  Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(design.cols());
+  double value = 0;
+  for (int step = 0; step < 60; ++step) {
+    const Eigen::VectorXd mean = design * coefficients;
+    Eigen::VectorXd slope(mean.size()), bend(mean.size());
+    value = 0;
+    for (Index i = 0; i < mean.size(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (bounds.is_bound(k)) {
+        const double z = (mean[i] - bounds.highest(k, readings[i])) / sd, pull = hazard(z);
+        value += 2 * std::log(above(z));
+        slope[i] = -pull / sd;
+        bend[i] = pull * (pull - z) / (sd * sd);
+      } else {
+        const double off = (readings[i] - mean[i]) / sd;
+        value -= off * off;
+        slope[i] = off / sd;
+        bend[i] = 1 / (sd * sd);
+      }
+    }
+    const Eigen::MatrixXd information = design.transpose() * bend.asDiagonal() * design;
+    coefficients += information.ldlt().solve(design.transpose() * slope);
+  }
+  return value;
+}
+
+// White noise, and a loss in half of the readings. Most of these are lost: for their level, or by chance, where the
+// bound tells nothing. Gains are of the loss's column, summed over `worlds`.
+struct Gains {
+  double exact = 0, nearer = 0,
+         without = 0;  // the censored likelihood's; beside draws nearer to the loss, and without it
+};
+
+Gains gains_of_a_loss(double loss, bool by_chance, uint64_t worlds) {
+  constexpr Index count = 800;
+  Gains sum;
+  for (uint64_t seed = 1; seed <= worlds; ++seed) {
+    synthetic::Recipe recipe;
+    recipe.seed = seed;
+    recipe.readings = count;
+    recipe.sigma = 0.01;
+    recipe.fading = 4;
+    const synthetic::World world = synthetic::world_of(recipe);
+    const Stream random(seed);
+    Eigen::VectorXd lossy(count);
+    for (Index i = 0; i < count; ++i) lossy[i] = random.uniform(static_cast<uint64_t>(i)) < 0.5;
+    inference::Problem problem = synthetic::problem_of(world, -loss * lossy, {}, {.way = -1});
+    Eigen::VectorXd sorted = problem.measured;
+    std::sort(sorted.begin(), sorted.end());
+    const double floor = std::round(sorted[count * 6 / 10]), anything = 300;  // dBm
+    for (Index i = 0; i < count; ++i) {
+      const bool lost = by_chance ? random.uniform(static_cast<uint64_t>(count + i)) < 0.3 + 0.5 * lossy[i]
+                                  : problem.measured[i] <= floor;
+      if (lost) problem.measured[i] = by_chance ? anything : floor;
+      problem.bounds.known.push_back(lost ? Known::below : Known::value);
+    }
+    inference::ModelState state(problem, {});
+    const Eigen::MatrixXd column = state.rows().mean(lossy);
+    const auto gain = [&] { return state.whitened_model(state.design()).gain(column); };
+    sum.without += gain();
+    const inference::ModelState::Draws before = state.draws();
+    state.draw_towards(column);
+    sum.nearer += gain();
+    state.put_back(before);
+    EXPECT_EQ(state.measured(), before.measured);
+    Eigen::MatrixXd both(count, problem.base.cols() + 1);
+    both << problem.base, lossy;
+    const double sd = std::sqrt(state.fit.covariance.reading_variance() + state.fit.covariance.field_variance());
+    sum.exact +=
+        tobit(problem.measured, problem.bounds, both, sd) - tobit(problem.measured, problem.bounds, problem.base, sd);
+  }
+  return sum;
+}
+
+// Draws nearer to a lead grant it most of what the censored likelihood does, and never more; those of the model without
+// it hide half of that.
+TEST(CensoredDraws, NearerToALeadGrantItItsGain) {
+  for (const bool by_chance : {false, true}) {
+    const Gains large = gains_of_a_loss(5, by_chance, 2);
+    EXPECT_GT(large.nearer, 0.6 * large.exact) << by_chance;
+    EXPECT_LT(large.nearer, 1.05 * large.exact) << by_chance;
+    EXPECT_LT(large.without, 0.75 * large.nearer) << by_chance;
+    const Gains none = gains_of_a_loss(0, by_chance, 3);
+    EXPECT_LT(none.nearer, none.exact + 10) << by_chance;
+  }
+}
+
 }  // namespace
 }  // namespace muster::noise

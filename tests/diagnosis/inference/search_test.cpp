@@ -299,6 +299,27 @@ TEST(Search, NoFalseExponentOrDualSlopeForAFloor) {
   }
 }
 
+// An antenna that loses a little from behind, in readings of which six of ten lie below a floor: what it takes from
+// those is drawn as if it took nothing.
+TEST(Search, ALossThatHidesBelowAFloorIsFound) {
+  const auto found_of = [](uint64_t seed, double strength) {
+    const World world = world_of(varied(seed, 3000));
+    Problem problem = problem_of(world, -strength * (1 - world.bearing().array().cos()), causes_of(world));
+    Eigen::VectorXd sorted = problem.measured;
+    std::sort(sorted.begin(), sorted.end());
+    const double floor = std::round(sorted[sorted.size() * 6 / 10]);
+    for (double& reading : problem.measured) {
+      problem.bounds.known.push_back(reading <= floor ? noise::Known::below : noise::Known::value);
+      reading = std::max(reading, floor);
+    }
+    problem.bounds.half_code = 0.5;
+    return ids(Search(problem).run());
+  };
+  for (const auto& [seed, strength] : {std::pair{61, 0.9}, std::pair{66, 0.9}, std::pair{63, 1.2}})
+    EXPECT_EQ(found_of(static_cast<uint64_t>(seed), strength), std::vector<std::string>{"antenna_rx"}) << seed;
+  for (const uint64_t seed : {67, 68}) EXPECT_EQ(found_of(seed, 0), std::vector<std::string>{}) << seed;
+}
+
 TEST(Search, AdvisedReadingsRaiseSeparabilityAsPredicted) {
   const World world = world_of(varied(37, 6000));
   const auto causes = causes_of(world);
