@@ -167,34 +167,5 @@ TEST(Survey, ANetworkWhoseLogKeepsWhatWasHeard) {
   }
 }
 
-// Links whose levels scatter by 6 dB, which the world does not state, and single readings by 0.7 dB: the weakest link
-// is no floor, however often it is heard.
-TEST(Survey, TheWeakestLinkOfANetworkIsNoFloor) {
-  for (const uint64_t seed : {1, 2, 3, 4}) {
-    SCOPED_TRACE(seed);
-    const Scratch scratch;
-    std::vector<std::string> rows;
-    const Stream random(combined(key_of("weakest link"), seed));
-    for (int round = 0; round < 60; ++round) {
-      for (std::size_t tx = 0; tx < stations.size(); ++tx) {
-        for (std::size_t rx = tx + 1; rx < stations.size(); ++rx) {
-          std::string row = print_real(4.0 * round + 0.3 * static_cast<double>(tx));
-          for (const char* cells : {stations[tx], stations[rx], places[tx], places[rx]}) row.append(",").append(cells);
-          rows.push_back(row);
-        }
-      }
-    }
-    const std::filesystem::path given = scratch / "world.xml";
-    const std::string with_fading = contents(world(scratch, "faded.xml", ""));
-    const std::size_t from = with_fading.find("<radio.fading"), end = with_fading.find("/>", from) + 2;
-    std::ofstream(given) << with_fading.substr(0, from) << with_fading.substr(end);
-    const auto measured = drawn_log(scratch, given, ends, rows, rows, [&](std::size_t i) {
-      return 6 * random.normal(uint64_t{i % 10}, 1) + 0.7 * random.normal(uint64_t{i}, 2);
-    });
-    for (const CauseEstimate& cause : diagnose(given, measured, plugins).causes)
-      EXPECT_NE(cause.id, "effect.rssi_floor");
-  }
-}
-
 }  // namespace
 }  // namespace muster::diagnosis
