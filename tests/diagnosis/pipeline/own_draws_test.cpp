@@ -78,7 +78,7 @@ TEST(OwnDraws, NothingIsWrongWithoutFading) {
 
 // A world whose receiver loses readings; `power`: dBm; `receiver`: its element, or none.
 std::filesystem::path far_off(const Scratch& scratch, int seed, int power, const std::string& receiver) {
-  const std::filesystem::path world = flat(scratch, seed, "rician_k=\"6\" per_reading=\"true\"");
+  std::filesystem::path world = flat(scratch, seed, "rician_k=\"6\" per_reading=\"true\"");
   std::string text = contents(world);
   const auto replace = [&](const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
