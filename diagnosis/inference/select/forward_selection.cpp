@@ -12,8 +12,10 @@
 #include "diagnosis/inference/score/longer_fields.hpp"
 #include "diagnosis/inference/score/marginal_p_value.hpp"
 #include "diagnosis/inference/select/choose.hpp"
+#include "diagnosis/inference/select/fit_beside.hpp"
 #include "diagnosis/inference/select/gain_by_row.hpp"
 #include "diagnosis/inference/select/merge_duplicates.hpp"
+#include "diagnosis/inference/select/nearer_draws_pass.hpp"
 #include "diagnosis/inference/select/refit_noise_pass.hpp"
 #include "diagnosis/inference/select/relocate.hpp"
 #include "diagnosis/inference/select/site_levels.hpp"
@@ -35,17 +37,6 @@ struct Blocked {
   std::set<std::string> beside_longer{};  // refused beside a longer field, and held to it from then on
   int aside = 0;                          // times that readings were set aside, after which a cause was tried again
 };
-
-// Fits the noise with the lead's columns inside; after a large effect also from scratch, since the old fit may be a
-// local optimum.
-noise::Fit fit_with(const ModelState& state, const ScoredCandidate& lead, const Eigen::MatrixXd& both) {
-  const bool large = lead.columns.cols() > thresholds::large_width || lead.gain > thresholds::large_gain;
-  noise::Fit fit = state.fitted(both, state.fit.covariance, large ? 14 : 6);
-  if (lead.gain <= thresholds::afresh_gain) return fit;
-  const auto start = noise::default_start(state.y(), both, fit.covariance.family);
-  const noise::Fit fresh = state.fitted(both, start, 20);
-  return fresh.value < fit.value ? fresh : fit;
-}
 
 // Log p under the exact covariance. Global effects that change little within longer rows are also tested on those,
 // with more neighbours.
@@ -214,7 +205,7 @@ bool enter(ModelState& state, ScoredCandidate lead, Blocked& blocked, std::vecto
     state.refit(2);
   }
   const Eigen::MatrixXd design = state.design();
-  const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+  const noise::Fit fit = fit_beside(state, lead, noise::hstack(design, lead.columns));
   // The first finding must stand beside a longer field, and so must what was refused for it before.
   const bool beside_longer = state.terms.empty() || blocked.beside_longer.count(lead.candidate().id) > 0;
   trials.push_back(tried(state, lead, fit, design, beside_longer));
@@ -270,44 +261,17 @@ std::vector<ScoredCandidate> closer_look(ModelState& state, const std::vector<Sc
   state.refit(4);
   for (ScoredCandidate& lead : places) {
     lead.columns = state.columns_of(lead.candidate(), lead.theta);
-    const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+    const noise::Fit fit = fit_beside(state, lead, noise::hstack(design, lead.columns));
     lead = refined(state, state.whitened_model(design, fit.covariance), lead, true);
   }
   by_evidence(places);
   return places;
 }
 
-// The lead that passes once the censored readings are drawn nearer to it: the best cause, or else the best smooth.
-std::optional<ScoredCandidate> passing_nearer_draws(ModelState& state, std::vector<ScoredCandidate> looked,
-                                                    const std::function<bool(const Candidate&)>& usable) {
-  std::erase_if(looked, [&](const ScoredCandidate& lead) {
-    return lead.log_p > std::log(thresholds::near_miss_p) || !usable(lead.candidate());
-  });
-  if (looked.size() > thresholds::most_near_misses)
-    looked.erase(looked.begin() + thresholds::most_near_misses, looked.end());
-  const Eigen::MatrixXd design = state.design();
-  const ModelState::Draws drawn_without = state.draws();
-  for (ScoredCandidate& lead : looked) {
-    lead.columns = state.columns_of(lead.candidate(), lead.theta);  // rows may have been split for another
-    state.draw_towards(lead.columns, lead.candidate().design.whole);
-    const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
-    const Candidate& c = lead.candidate();
-    lead.gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
-    lead.evidence = state.evidence(c, lead.gain, lead.columns.cols(), false);
-    lead.log_p = state.log_p(c, lead.gain, lead.columns.cols(), true);
-    state.put_back(drawn_without);
-  }
-  std::erase_if(looked, [&](const ScoredCandidate& lead) { return lead.log_p >= state.threshold(); });
-  by_evidence(looked);
-  std::stable_partition(looked.begin(), looked.end(),
-                        [](const ScoredCandidate& lead) { return lead.candidate().kind == Kind::named; });
-  return looked.empty() ? std::nullopt : std::optional(std::move(looked.front()));
-}
-
 void enter_as_stated(ModelState& state, const ScoredCandidate& lead) {
   const Candidate& c = lead.candidate();
   const Eigen::MatrixXd design = state.design();
-  const noise::Fit fit = fit_with(state, lead, noise::hstack(design, lead.columns));
+  const noise::Fit fit = fit_beside(state, lead, noise::hstack(design, lead.columns));
   const double gain = gain_of(c, state.whitened_model(design, fit.covariance), lead.columns);
   Term term{lead.entry->candidate,
             lead.theta,
@@ -381,7 +345,7 @@ void forward_selection(ModelState& state, std::vector<Trial>& trials) {
         }
       }
       if (passing.empty() && state.problem().bounds.any()) {
-        if (const auto nearer = passing_nearer_draws(state, looked, may_enter)) {
+        if (const auto nearer = nearer_draws_pass(state, looked, may_enter)) {
           enter(state, *nearer, blocked, trials);
           scored.reset();
           continue;
