@@ -44,7 +44,7 @@ auto Instance::guarded(decltype(std::declval<Body>()()) otherwise, Body&& body) 
 }
 
 Instance::Instance(InstanceDeclaration declaration, std::shared_ptr<Library> library, Surroundings& around)
-    : declared_(std::move(declaration)), library_(std::move(library)), around_(around) {
+    : declared_(std::move(declaration)), library_(std::move(library)), around_(around), before_(library_->steps()) {
   const auto& plugins = library_->plugins();
   plugin_ = &plugins.back();
   if (declared_.revision) {
@@ -111,6 +111,7 @@ void Instance::create() {
 Instance::~Instance() {
   there_.reset();
   if (self_) destroy();
+  library_->add_steps(steps_);
 }
 
 void Instance::destroy() {
@@ -243,14 +244,19 @@ constexpr bool is_power_of_two(uint64_t number) { return (number & (number - 1))
 
 }  // namespace
 
+// The first step of each instance is one, and then the second, fourth, eighth, ... since the library was loaded: who
+// makes an instance anew for every few steps, as a search over causes does, has seen the same code at work before.
+bool Instance::is_early() const { return steps_ == 1 || is_power_of_two(before_ + steps_); }
+
 // Some steps take place between guards, all of the first and ever fewer later; of those whose tables are large, which
 // are copied, fewer from the start. Where it steps in a process of its own, it can write into nothing of others.
 bool Instance::is_looked_at() const {
   constexpr uint64_t all = 16, one_of = 4096;
   constexpr std::size_t large = 1 << 16;  // cells
   if (there_) return false;
-  if (is_power_of_two(steps_)) return true;
-  return (steps_ <= all || steps_ % one_of == 0) && GuardedViews::cells_of(in_, out_) < large;
+  if (is_early()) return true;
+  const uint64_t steps = before_ + steps_;
+  return (steps <= all || steps % one_of == 0) && GuardedViews::cells_of(in_, out_) < large;
 }
 
 std::string Instance::words_of(const GuardedViews::Fault& fault) const {
@@ -274,9 +280,9 @@ bool Instance::step_here(const muster_tick& now) noexcept {
   time_ = now.time;
   const RunningCallback running(title_.c_str(), "step", tick_, now.time, may_wait_);
   ++steps_;
-  // The rest of the process is looked at in the steps 1, 2, 4, 8, ..., where no other instance steps beside it.
+  // The rest of the process is looked at in early steps, where no other instance steps beside it.
   std::unique_ptr<ProcessGuard> process;
-  if (is_power_of_two(steps_) && !there_ && !around_.workers) process = std::make_unique<ProcessGuard>();
+  if (is_early() && !there_ && !around_.workers) process = std::make_unique<ProcessGuard>();
   if (is_looked_at()) guarded_views_.open(in_, out_);
   const bool fine =
       guarded(MUSTER_FAILED, [&] { return plugin_->step(self_, &tick, in_.data(), out_.data()); }) == MUSTER_OK;

@@ -178,6 +178,7 @@ class Instance {
   void create();
   void destroy();
   bool step_here(const muster_tick& now) noexcept;
+  bool is_early() const;
   bool is_looked_at() const;
   std::string words_of(const GuardedViews::Fault& fault) const;
   // Implementations of the host's claim() and file(); they throw Error where the host returns -1.
@@ -204,10 +205,10 @@ class Instance {
   } settled_;
   std::string error_;  // the plugin's message for its failure
   Exit fault_ = Exit::plugin_fault;
-  bool refused_ = false;  // the message is the kernel's own refusal
-  int64_t tick_ = -1;     // of its last step
-  double time_ = 0;       // [s] of the same
-  uint64_t steps_ = 0;
+  bool refused_ = false;             // the message is the kernel's own refusal
+  int64_t tick_ = -1;                // of its last step
+  double time_ = 0;                  // [s] of the same
+  uint64_t steps_ = 0, before_ = 0;  // of its own; of instances that its library had before
   GuardedViews guarded_views_;
   bool may_wait_ = false;
   bool in_create_ = false, in_step_ = false, direct_ = false;

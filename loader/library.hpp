@@ -5,6 +5,8 @@
 
 #include <muster/plugin.h>
 
+#include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -41,6 +43,9 @@ class Library {
   const std::vector<muster_plugin>& plugins() const { return plugins_; }
   // Warnings of what it calls: library_doubts().
   const std::vector<std::string>& doubts() const { return doubts_; }
+  // Steps that instances of it took which are gone.
+  std::uint64_t steps() const { return steps_; }
+  void add_steps(std::uint64_t more) { steps_ += more; }
 
  private:
   friend class LibraryLoader;
@@ -51,6 +56,7 @@ class Library {
   std::unique_ptr<Module> module_;
   std::vector<muster_plugin> plugins_;
   std::vector<std::string> doubts_;
+  std::atomic<std::uint64_t> steps_ = 0;
 };
 
 // Loads the libraries of a world, which share the child process that tries them out. It forks at the first load: no

@@ -66,5 +66,23 @@ TEST_F(ProcessState, WritesBesideItsCellsAreThePluginsFault) {
             "5 (t = 2.5 s): keeps a pointer beyond its step, and wrote through it into \"self/count\"");
 }
 
+// Steps of instances that are gone count: of one made anew the first step is looked at, and the 64th of all, which is
+// its 24th; its second is not.
+TEST_F(ProcessState, AnInstanceMadeAnewGoesOnFromTheOneBefore) {
+  const auto fault = [&](int tick) {
+    Simulation sim = run(moving + "<toy.ends name='one' how='never'/>\n");
+    const std::shared_ptr<Library> library = sim.instances().back()->library();
+    step(sim, 40);
+    sim.remove("one");
+    EXPECT_EQ(library->steps(), 40u);
+    sim.insert(instance("toy.ends", "two", {{"how", "reaches"}, {"tick", std::to_string(tick)}}));
+    return error_of([&] { step(sim, 30); });
+  };
+  const std::string told = "changes what it was given to read of \"robot/*/pose\"";
+  EXPECT_NE(fault(41).find(told), std::string::npos);
+  EXPECT_EQ(fault(42).find(told), std::string::npos);
+  EXPECT_NE(fault(64).find(told), std::string::npos);
+}
+
 }  // namespace
 }  // namespace muster
