@@ -118,7 +118,7 @@ TEST_F(Snapshots, NumbersThatNoRunHasAreRefusedAndTheRunStands) {
   const auto refused = [&](const auto& craft) {
     Snapshot crafted = saved;
     craft(crafted);
-    const std::string error = error_of([&] { sim.restore(crafted); });
+    std::string error = error_of([&] { sim.restore(crafted); });
     EXPECT_EQ(sim.digest(), before) << error;
     return error;
   };
