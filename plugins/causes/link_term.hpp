@@ -55,6 +55,12 @@ inline Rows<const Endpoint> unchanged(const Step& k, Stage<Endpoint> endpoint) {
   return before;
 }
 
+// Places in the plan of both ends of some links.
+struct PlanEnds {
+  static constexpr std::size_t most = 256;
+  double ax[most], ay[most], bx[most], by[most];
+};
+
 class LinkTerm {
  public:
   explicit LinkTerm(Setup& s)
@@ -77,11 +83,8 @@ class LinkTerm {
     const auto radios = k[endpoint];
     const auto poses = k[pose];
     const auto out = k[level];
-    const auto end = [&](double row) {
-      const auto i = static_cast<std::size_t>(static_cast<std::int64_t>(row));  // the conversion that machines have
-      return End{radios[i].radio, radios[i].t, poses[i]};
-    };
-    for (std::size_t i = 0; i < links.size(); ++i) out[i].level = term(end(links[i].tx), end(links[i].rx), i);
+    for (std::size_t i = 0; i < links.size(); ++i)
+      out[i].level = term(end(radios, poses, links[i].tx), end(radios, poses, links[i].rx), i);
   }
 
   // A reciprocal term: the ends are ordered by their places, so both directions agree to the last bit.
@@ -90,17 +93,41 @@ class LinkTerm {
     add(k, [&](const End& a, const End& b) { return is_before(b.at, a.at) ? term(b, a) : term(a, b); });
   }
 
-  // For terms of few links: `concerns` selects them, whichever end comes first; all others get `none`.
-  template <class Concerns, class Term>
-  void add_both_ways(const Step& k, double none, const Concerns& concerns, const Term& term) const {
-    add(k, [&](const End& a, const End& b) {
-      if (!concerns(a.at, b.at)) return none;
-      const bool turned = is_before(b.at, a.at);
-      return term(turned ? b : a, turned ? a : b);
-    });
+  // For terms of few links, which `meets(ends, count, met)` selects, many at a time and whichever end comes first: all
+  // where met[i] is 0 get `none`.
+  template <class Meets, class Term>
+  void add_both_ways(const Step& k, double none, const Meets& meets, const Term& term) const {
+    const auto links = k[ends];
+    const auto radios = k[endpoint];
+    const auto poses = k[pose];
+    const auto out = k[level];
+    PlanEnds at;
+    double met[PlanEnds::most];
+    for (std::size_t first = 0; first < links.size(); first += PlanEnds::most) {
+      const std::size_t count = std::min(links.size() - first, PlanEnds::most);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Pose &a = poses[row(links[first + i].tx)], &b = poses[row(links[first + i].rx)];
+        at.ax[i] = a.x, at.ay[i] = a.y, at.bx[i] = b.x, at.by[i] = b.y;
+      }
+      meets(at, count, met);
+      for (std::size_t i = 0; i < count; ++i) {
+        out[first + i].level = none;
+        if (met[i] == 0) continue;
+        const End a = end(radios, poses, links[first + i].tx), b = end(radios, poses, links[first + i].rx);
+        const bool turned = is_before(b.at, a.at);
+        out[first + i].level = term(turned ? b : a, turned ? a : b);
+      }
+    }
   }
 
  private:
+  static std::size_t row(double number) {
+    return static_cast<std::size_t>(static_cast<std::int64_t>(number));  // the conversion that machines have
+  }
+  static End end(const Rows<const Endpoint>& radios, const Rows<const Pose>& poses, double number) {
+    const std::size_t i = row(number);
+    return {radios[i].radio, radios[i].t, poses[i]};
+  }
   static bool is_before(const Pose& a, const Pose& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
   In<Endpoint> endpoint;

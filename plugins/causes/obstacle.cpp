@@ -1,6 +1,7 @@
 // A single obstacle: a machine, a cabinet, a pillar.
 #include <cmath>
 #include <muster/plugin.hpp>
+#include <muster/widest.hpp>
 
 #include "link_term.hpp"
 #include "plan_shapes.hpp"
@@ -49,8 +50,9 @@ struct Obstacle {
   void step(const Step& k) const {
     const Disk thing{k[x], k[y], k[radius]};
     const double most = k[loss], up_to = k[height];
+    using Meets = Widest<MeetsDisk, const PlanEnds&, std::size_t, const Disk&, double*>;
     links.add_both_ways(
-        k, 0, [&](const Pose& a, const Pose& b) { return thing.may_stop(a, b); },
+        k, 0, [&](const PlanEnds& ends, std::size_t count, double* met) { Meets::run(ends, count, thing, met); },
         [&](const End& a, const End& b) {
           const double way = thing.way(a.at, b.at, up_to);
           return way > 0 ? most * std::expm1(-way / thing.radius) / -std::expm1(-2) : 0;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <muster/tables.hpp>
 
+#include "link_term.hpp"
+
 namespace muster {
 
 // Twice the signed area of a triangle: positive where the point is to the left of a -> b.
@@ -17,15 +19,10 @@ struct Segment {
   double x0, y0, x1, y1;
   double length = std::hypot(x1 - x0, y1 - y0);
 
-  // True if the points are on different sides of the segment's line; never if its length is 0.
-  bool parts(const Pose& a, const Pose& b) const {
-    return (side(x0, y0, x1, y1, a.x, a.y) > 0) != (side(x0, y0, x1, y1, b.x, b.y) > 0);
-  }
-
   // Share of it that the link from a to b meets, 0 to 1: half where it passes an end, all from edge / 2 further in.
   double share(const Pose& a, const Pose& b, double height, double edge) const {
-    if (!parts(a, b)) return 0;
     const double sa = side(x0, y0, x1, y1, a.x, a.y), sb = side(x0, y0, x1, y1, b.x, b.y);
+    if ((sa > 0) == (sb > 0)) return 0;  // on one side of its line, as if its length is 0
     const double over = std::max(edge, 1e-9), at = sa / (sa - sb);
     const double x = a.x + at * (b.x - a.x), y = a.y + at * (b.y - a.y);
     const double lengthwise = (x - x0) * (x1 - x0) + (y - y0) * (y1 - y0);
@@ -39,15 +36,32 @@ struct Segment {
   }
 };
 
+// Which of many links have a share() of a segment above 0 but for their height: `met` is 0 for all others. By the same
+// arithmetic, in the order of the ends of LinkTerm::add_both_ways().
+struct MeetsSegment {
+  [[gnu::always_inline]] static void run(const PlanEnds& ends, std::size_t count, const Segment& wall, double edge,
+                                         double* met) {
+    const double x0 = wall.x0, y0 = wall.y0, ex = wall.x1 - x0, ey = wall.y1 - y0, over = std::max(edge, 1e-9);
+    const double least = -over * wall.length, most = (wall.length + over) * wall.length;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double ax = ends.ax[i], ay = ends.ay[i], bx = ends.bx[i], by = ends.by[i];
+      const double turned = bx < ax ? 1.0 : bx == ax ? (by < ay ? 1.0 : 0.0) : 0.0;
+      const double px = turned != 0 ? bx : ax, py = turned != 0 ? by : ay;
+      const double qx = turned != 0 ? ax : bx, qy = turned != 0 ? ay : by;
+      const double sp = ex * (py - y0) - ey * (px - x0), sq = ex * (qy - y0) - ey * (qx - x0);
+      const double at = sp / (sp - sq), x = px + at * (qx - px), y = py + at * (qy - py);
+      const double lengthwise = (x - x0) * ex + (y - y0) * ey;
+      double result = (sp > 0 ? 1.0 : 0.0) != (sq > 0 ? 1.0 : 0.0) ? 1.0 : 0.0;
+      result = lengthwise < least ? 0.0 : result;
+      result = lengthwise > most ? 0.0 : result;
+      met[i] = result;
+    }
+  }
+};
+
 // An upright cylinder on the ground.
 struct Disk {
   double x, y, radius;
-
-  // Fast test whether the link may pass through, as few do; the same from b to a except within rounding.
-  bool may_stop(const Pose& a, const Pose& b) const {
-    const double ex = b.x - a.x, ey = b.y - a.y, passes = side(a.x, a.y, b.x, b.y, x, y);
-    return passes * passes <= 1.001 * radius * radius * (ex * ex + ey * ey);
-  }
 
   // Length of the link's path through it in plan, in m.
   double way(const Pose& a, const Pose& b, double height) const {
@@ -61,6 +75,19 @@ struct Disk {
     if (to <= from) return 0;
     const double z = a.z + (from + to) / (2 * length) * (b.z - a.z);
     return z >= 0 && z < height ? to - from : 0;
+  }
+};
+
+// Which of many links may pass through a disk, as few do: `met` is 0 for all others. The same in either direction
+// except within rounding.
+struct MeetsDisk {
+  [[gnu::always_inline]] static void run(const PlanEnds& ends, std::size_t count, const Disk& disk, double* met) {
+    const double x = disk.x, y = disk.y, within = 1.001 * disk.radius * disk.radius;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double ex = ends.bx[i] - ends.ax[i], ey = ends.by[i] - ends.ay[i];
+      const double passes = ex * (y - ends.ay[i]) - ey * (x - ends.ax[i]);
+      met[i] = passes * passes <= within * (ex * ex + ey * ey) ? 1.0 : 0.0;
+    }
   }
 };
 

@@ -1,5 +1,6 @@
 // A wall missing from the map.
 #include <muster/plugin.hpp>
+#include <muster/widest.hpp>
 
 #include "link_term.hpp"
 #include "plan_shapes.hpp"
@@ -52,8 +53,10 @@ struct UnmappedWall {
   void step(const Step& k) const {
     const Segment wall{k[x0], k[y0], k[x1], k[y1]};
     const double most = -k[loss], up_to = k[height], over = k[edge];
+    using Meets = Widest<MeetsSegment, const PlanEnds&, std::size_t, const Segment&, double, double*>;
     links.add_both_ways(
-        k, most * 0, [&](const Pose& a, const Pose& b) { return wall.parts(a, b); },
+        k, most * 0,
+        [&](const PlanEnds& ends, std::size_t count, double* met) { Meets::run(ends, count, wall, over, met); },
         [&](const End& a, const End& b) { return most * wall.share(a.at, b.at, up_to, over); });
   }
 
