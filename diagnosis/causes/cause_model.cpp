@@ -139,6 +139,7 @@ CauseModel::CauseModel(MeasuredWorld& whole, const std::filesystem::path& world,
   Options options;
   options.search_path = plugins;
   options.tables = whole.tables();
+  options.libraries = whole.libraries();
   options.more.push_back(whole.observable().stand_in);
   bare_ = std::make_unique<Simulation>(std::move(bare), *observable_.sets, std::move(options));
   before_ = whole.expected();

@@ -65,8 +65,8 @@ void add_advice(inference::Search& search, Diagnosis& found, const CauseSearch& 
   std::vector<PlannedReadings> planned = planned_readings(found.seen, found.causes);
   std::vector<inference::Plan> plans;
   for (const PlannedReadings& p : planned) {
-    simulated.push_back(
-        std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world, sources.plugins, base));
+    simulated.push_back(std::make_unique<SimulatedReadings>(p.readings, found.seen.radios, sources.world,
+                                                            sources.plugins, base, sources.model.libraries()));
     plans.push_back(
         {p.say, std::make_shared<const LinkLayout>(p.readings, limits), simulated.back()->slopes(base), {}});
     for (const CauseCandidate& c : causes.found) {

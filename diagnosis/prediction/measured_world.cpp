@@ -26,6 +26,15 @@ MeasuredWorld::MeasuredWorld(World world, Options options, Observable observable
   evaluate(true);
 }
 
+std::vector<std::shared_ptr<Library>> MeasuredWorld::libraries() const {
+  std::vector<std::shared_ptr<Library>> result;
+  for (const auto& instance : run_->instances()) {
+    // One that the world names by its file is not what others mean by its id.
+    if (!instance->declared().library) result.push_back(instance->library());
+  }
+  return result;
+}
+
 void MeasuredWorld::evaluate(bool expected) {
   run_->evaluate(observable_.phase, expected);
   ++evaluations_;

@@ -33,6 +33,7 @@ class MeasuredWorld {
 
   const Observable& observable() const { return observable_; }
   const std::shared_ptr<TableCache>& tables() const { return tables_; }  // files already read, for further worlds
+  std::vector<std::shared_ptr<Library>> libraries() const;               // those of its instances, likewise
   std::size_t rows() const { return static_cast<std::size_t>(values_.size()); }  // readings
   // Expected value of every reading.
   const Eigen::VectorXd& expected();

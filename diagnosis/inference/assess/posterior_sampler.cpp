@@ -26,11 +26,15 @@ class Likelihood {
       : state_(state),
         rest_(rest),
         c_(*term.candidate),
-        columns_(c_.design.near ? c_.design.near(term.theta) : c_.design.columns),
+        columns_(c_.design.columns),
         overstated_(overstated),
         thin_(state, rest) {}
 
   const Candidate& candidate() const { return c_; }
+  // Most thetas to come are among these.
+  void stay_among(const std::vector<Eigen::VectorXd>& thetas) {
+    if (c_.design.near) columns_ = c_.design.near(thetas);
+  }
   bool allows(const Eigen::VectorXd& theta) const {
     return theta == theta.cwiseMax(c_.refinement.lower).cwiseMin(c_.refinement.upper);
   }
@@ -38,7 +42,7 @@ class Likelihood {
   // Exact columns: for a strong effect a sketch is off by many nats.
   ConditionalGain explained(const Eigen::VectorXd& theta) {
     const Eigen::MatrixXd columns = state_.rows().mean(columns_(theta));
-    if (columns.cols() > 1 || c_.design.whole || !thin_.take(columns))
+    if (columns.cols() > 1 || c_.design.whole || !thin_.take(columns.col(0)))
       return ConditionalFit(rest_, columns, c_.design.whole);
     const double along = thin_.along(), length = thin_.length();
     if (length < 1e-6) return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, 1), 0};
@@ -56,7 +60,7 @@ class Likelihood {
   const ModelState& state_;
   const WhitenedModel& rest_;
   const Candidate& c_;
-  const std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_;
+  std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_;
   const double overstated_;
   SparseColumns thin_;
 };
@@ -217,6 +221,7 @@ LikelyThetas sample_posterior(const ModelState& state, const WhitenedModel& rest
                        std::max(0.0, state.log_effective_tests(c) + c.refinement.charge) + thresholds::spared_nats);
   const auto found = [&](int steps) {
     const std::vector<Eigen::VectorXd> met = walk.lap(steps);
+    likelihood.stay_among(met);
     return Moments(met, Eigen::VectorXd::Ones(static_cast<Index>(met.size())));
   };
   walk.learn(found(walked[0]));

@@ -94,15 +94,16 @@ Rows Rows::ended_where(const Eigen::VectorXd& effect, double step, std::vector<I
 
 Eigen::MatrixXd Rows::mean(const Eigen::Ref<const Eigen::MatrixXd>& columns) const {
   Eigen::MatrixXd result(size(), columns.cols());
-  const auto sum_of = [&](const std::vector<Index>& readings, Index row, Index column) {
-    double sum = 0;
-    for (Index k = first_of(row); k < end_of(row); ++k) sum += columns(readings[static_cast<std::size_t>(k)], column);
-    return sum;
-  };
   for (Index j = 0; j < columns.cols(); ++j) {
-    for (const Index i : by_count_) result(i, j) = sum_of(order_, i, j) / count_[i];
+    const auto sum_of = [column = columns.col(j).data(), this](const std::vector<Index>& readings, Index row) {
+      const Index *const those = readings.data(), *const end = those + end_of(row);
+      double sum = 0;
+      for (const Index* one = those + first_of(row); one < end; ++one) sum += column[*one];
+      return sum;
+    };
+    for (const Index i : by_count_) result(i, j) = sum_of(order_, i) / count_[i];
     for (Index i = means(); i < size(); ++i) {
-      const double one = result(mean_of(i), j), other = sum_of(twins_, mean_of(i), j) / count_[i];
+      const double one = result(mean_of(i), j), other = sum_of(twins_, mean_of(i)) / count_[i];
       result(mean_of(i), j) = (one + other) / 2;
       result(i, j) = (one - other) / 2;
     }

@@ -44,13 +44,13 @@ class Objective {
     const Eigen::MatrixXd columns =
         sketched_ ? state_.sketch_of(candidate_, theta) : state_.columns_of(candidate_, theta);
     if (candidate_.design.width > 1 || candidate_.design.sign == 0) return admitted * model_.gain(columns);
-    const auto [along, length] = measured(columns);
+    const auto [along, length] = measured(columns.col(0));
     if (length < 1e-6 || along * candidate_.design.sign <= 0) return 0;
     return admitted * (candidate_.design.whole ? 2 * along - length : along * along / length);
   }
 
   // Product with the residual, and squared length, of a column with the design projected out.
-  std::pair<double, double> measured(const Eigen::VectorXd& column) {
+  std::pair<double, double> measured(const Eigen::Ref<const Eigen::VectorXd>& column) {
     if (thin().take(column)) return {thin().along(), thin().length()};
     const Eigen::VectorXd left = model_.at.basis.rest(model_.whitener(column));
     return {left.dot(model_.at.residual), left.squaredNorm()};

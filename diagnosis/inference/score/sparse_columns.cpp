@@ -28,10 +28,11 @@ void SparseColumns::clear() {
 
 void SparseColumns::add(Index row, double value) {
   along_ += value * scores_[row];
-  explained_ += value * design_.col(row);
   added_.push_back(row);
   // Locals, so that the compiler need not store members at every entry: the column's doubles could alias them.
-  double *const column = column_.data(), length = 0;
+  double *const column = column_.data(), *const explained = explained_.data(), length = 0;
+  const double* const design = design_.data() + row * design_.rows();
+  for (Index k = 0, end = design_.rows(); k < end; ++k) explained[k] += value * design[k];
   for (const auto& [at, weight] : reach_.of(row)) {
     double& to = column[at];
     const double by = value * weight;
@@ -41,14 +42,22 @@ void SparseColumns::add(Index row, double value) {
   length_ += length;
 }
 
-bool SparseColumns::take(const Eigen::VectorXd& column) {
-  constexpr Index few = 5;  // a row reaches some fifteen
+bool SparseColumns::take(const Eigen::Ref<const Eigen::VectorXd>& column) {
+  constexpr Index few = 5;    // a row reaches some fifteen
+  constexpr Index block = 8;  // most of which are zero
   concerned_.resize(column.size());
   Index count = 0;
-  for (Index i = 0; i < column.size(); ++i) {
-    concerned_[count] = i;
-    count += column[i] != 0;  // branch-free: a branch would be unpredictable
+  const auto look = [&](Index first, Index end) {
+    for (Index i = first; i < end; ++i) {
+      concerned_[count] = i;
+      count += column[i] != 0;  // branch-free: a branch would be unpredictable
+    }
+  };
+  const Index last = column.size() - column.size() % block;
+  for (Index i = 0; i < last; i += block) {
+    if (column.segment<block>(i).cwiseAbs().maxCoeff() > 0) look(i, i + block);
   }
+  look(last, column.size());
   if (count * few > column.size()) return false;
   clear();
   for (Index k = 0; k < count; ++k) add(concerned_[k], column[concerned_[k]]);

@@ -17,7 +17,7 @@ class SparseColumns : public Tally {
   double gain() const override;
 
   // Takes a whole column. False if it has so many non-zero rows that whitening it at once is faster.
-  bool take(const Eigen::VectorXd& column);
+  bool take(const Eigen::Ref<const Eigen::VectorXd>& column);
 
   double along() const { return along_; }                               // product with the residual
   double length() const { return length_ - explained_.squaredNorm(); }  // squared, the design projected out

@@ -45,8 +45,9 @@ struct CandidateDesign {
   // The same at each row's middle reading, one row a row of the search: enough for a search over many thetas. Empty:
   // the columns' row means.
   std::function<Eigen::MatrixXd(const Eigen::VectorXd& theta)> sketch;
-  // The same columns, cheaper for many thetas near this one. Empty: no cheaper version.
-  std::function<std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>(const Eigen::VectorXd& theta)> near;
+  // The same columns, cheaper for many thetas among these. Empty: no cheaper version.
+  std::function<std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>(const std::vector<Eigen::VectorXd>& thetas)>
+      near;
   // Thetas of the same smooth with more functions, fewest first; may be empty.
   std::vector<Eigen::VectorXd> wider;
 };

@@ -39,7 +39,7 @@ std::shared_ptr<SimulatedReadings> sketched_readings(const LinkSearchWorld& at) 
   if (at.layout->size() < thresholds::worth_sketching * at.rows.size() || holds_a_table_reader(at.model))
     return nullptr;
   return std::make_shared<SimulatedReadings>(middles(at.rows, at.layout->readings()), at.model.radio_names(), at.world,
-                                             at.plugins, at.base);
+                                             at.plugins, at.base, at.model.libraries());
 }
 
 CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedReadings>& sketched,
@@ -56,14 +56,14 @@ CauseSearch with_sketches(CauseSearch causes, const std::shared_ptr<SimulatedRea
 
 CauseSearch with_columns_near(CauseSearch causes, const LinkSearchWorld& at) {
   if (at.layout->size() < thresholds::worth_localising || holds_a_table_reader(at.model)) return causes;
-  const Simulate simulate = [radios = at.model.radio_names(), world = at.world, plugins = at.plugins,
-                             base = at.base](const LinkReadings& readings) {
-    return std::make_shared<SimulatedReadings>(readings, radios, world, plugins, base);
+  const Simulate simulate = [radios = at.model.radio_names(), world = at.world, plugins = at.plugins, base = at.base,
+                             libraries = at.model.libraries()](const LinkReadings& readings) {
+    return std::make_shared<SimulatedReadings>(readings, radios, world, plugins, base, libraries);
   };
   for (CauseCandidate& c : causes.found) {
     if (!c.candidate.refinement.proposed || c.shape->cause.file()) continue;
-    c.candidate.design.near = [layout = at.layout, cause = c, simulate](const VectorXd& theta) {
-      return columns_near(theta, cause, layout->readings(), simulate);
+    c.candidate.design.near = [layout = at.layout, cause = c, simulate](const std::vector<VectorXd>& thetas) {
+      return columns_near(thetas, cause, layout->readings(), simulate);
     };
   }
   return causes;

@@ -1,7 +1,9 @@
 #include "diagnosis/radio/causes/local_columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace muster::diagnosis {
 namespace {
@@ -11,7 +13,8 @@ using Eigen::VectorXd;
 using Columns = std::function<Eigen::MatrixXd(const VectorXd&)>;
 
 constexpr double beyond_ends = 0.5;  // m: half a wall's widest edge, with loss beyond its ends
-constexpr double moves = 0.75;  // m, to every side
+constexpr double moves = 0.5;        // m, to every side
+constexpr double strays = 0.01;      // share of thetas that are left out at each side
 
 struct Area {
   double west, south, east, north;
@@ -60,24 +63,28 @@ LinkReadings those(const LinkReadings& all, const std::vector<Index>& kept) {
   return result;
 }
 
-// theta, and thetas shifted by `moves` to all four corners.
-std::vector<VectorXd> corners(const VectorXd& theta) {
-  std::vector<VectorXd> result{theta};
-  for (const double x : {-moves, moves}) {
-    for (const double y : {-moves, moves}) {
-      result.push_back(theta);
-      result.back().segment<2>(1) += Eigen::Vector2d(x, y);
-    }
+// What holds the places of nearly all thetas, and those beside them.
+Area about(const CauseShape& shape, const std::vector<VectorXd>& thetas) {
+  std::array<std::vector<double>, 4> sides;
+  for (const VectorXd& theta : thetas) {
+    const Area one = about(shape, theta, beyond_ends + moves);
+    sides[0].push_back(-one.west);
+    sides[1].push_back(-one.south);
+    sides[2].push_back(one.east);
+    sides[3].push_back(one.north);
   }
-  return result;
+  const auto out = static_cast<std::size_t>(strays * static_cast<double>(thetas.size()));
+  for (std::vector<double>& side : sides) std::sort(side.begin(), side.end(), std::greater<>());
+  return {-sides[0][out], -sides[1][out], sides[2][out], sides[3][out]};
 }
 
 }  // namespace
 
-Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const LinkReadings& readings,
+Columns columns_near(const std::vector<VectorXd>& thetas, const CauseCandidate& cause, const LinkReadings& readings,
                      const Simulate& simulate) {
+  constexpr std::size_t tried = 5;  // thetas
   const Columns& all = cause.candidate.design.columns;
-  const Area area = about(*cause.shape, theta, beyond_ends + moves);
+  const Area area = about(*cause.shape, thetas);
   std::vector<Index> near;
   for (Index i = 0; i < readings.size(); ++i) {
     if (area.met_by(readings.tx_at.col(i), readings.rx_at.col(i))) near.push_back(i);
@@ -93,8 +100,8 @@ Columns columns_near(const VectorXd& theta, const CauseCandidate& cause, const L
     there(near, Eigen::all) = here;
     return there;
   };
-  for (const VectorXd& t : corners(theta)) {
-    if (result(t) != all(t)) return all;
+  for (std::size_t k = 0; k < thetas.size(); k += thetas.size() / tried + 1) {
+    if (result(thetas[k]) != all(thetas[k])) return all;
   }
   return result;
 }

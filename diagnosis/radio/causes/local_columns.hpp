@@ -8,9 +8,9 @@ namespace muster::diagnosis {
 // Simulates these readings.
 using Simulate = std::function<std::shared_ptr<SimulatedReadings>(const LinkReadings&)>;
 
-// Columns of a wall or obstacle, bit for bit the cause's own, at less cost near `theta`. Returns the cause's own if
-// most links pass near, or if it affects any that does not.
-std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_near(const Eigen::VectorXd& theta,
+// Columns of a wall or obstacle, bit for bit the cause's own, at less cost where nearly all of `thetas` have it, at
+// least one of them. Returns the cause's own if most links pass there, or if it affects any that does not.
+std::function<Eigen::MatrixXd(const Eigen::VectorXd&)> columns_near(const std::vector<Eigen::VectorXd>& thetas,
                                                                     const CauseCandidate& cause,
                                                                     const LinkReadings& readings,
                                                                     const Simulate& simulate);

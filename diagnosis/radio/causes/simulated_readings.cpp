@@ -58,12 +58,12 @@ LinkReadings with_all_radios(LinkReadings r, const std::vector<std::string>& rad
 
 SimulatedReadings::SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
                                      const fs::path& world, const Library::SearchPath& plugins,
-                                     const Sensitivities& base)
+                                     const Sensitivities& base, const std::vector<std::shared_ptr<Library>>& libraries)
     : all_(static_cast<std::size_t>(readings.size())) {
   std::iota(all_.begin(), all_.end(), 0);
   const fs::path table = folder_.path() / "readings.csv";
   write(with_all_radios(readings, radios), radios, table);
-  model_ = std::make_unique<LinkModel>(world, table, plugins);
+  model_ = std::make_unique<LinkModel>(world, table, plugins, std::make_shared<TableCache>(), std::nullopt, libraries);
   for (std::size_t j = 0; j < base.paths.size(); ++j) model_->set(base.paths[j], base.values[static_cast<Index>(j)]);
   run_ = std::make_shared<CauseModel>(*model_, world, table, plugins);
 }

@@ -11,9 +11,11 @@ namespace muster::diagnosis {
 
 class SimulatedReadings {
  public:
-  // `radios`: names, by the indices in tx and rx. The world has the parameters of `base`. Throws Error.
+  // `radios`: names, by the indices in tx and rx. The world has the parameters of `base`. `libraries`: loaded already.
+  // Throws Error.
   SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
-                    const std::filesystem::path& world, const Library::SearchPath& plugins, const Sensitivities& base);
+                    const std::filesystem::path& world, const Library::SearchPath& plugins, const Sensitivities& base,
+                    const std::vector<std::shared_ptr<Library>>& libraries);
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;
 

@@ -78,11 +78,13 @@ World world_for(const std::filesystem::path& file, const std::filesystem::path& 
   return world;
 }
 
-Options options_for(const World& world, const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables) {
+Options options_for(const World& world, const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
+                    const std::vector<std::shared_ptr<Library>>& libraries) {
   const Place place{world.file.string()};
   Options options;
   options.search_path = plugins;
   options.tables = tables;
+  options.libraries = libraries;
   const auto is_receiver = [](const InstanceDeclaration& i) { return i.plugin == "radio.receiver"; };
   if (std::none_of(world.instances.begin(), world.instances.end(), is_receiver))
     options.more.push_back({"radio.receiver", "receiver", 1, {}, {}, {}, place});
@@ -105,12 +107,14 @@ Observable links_of(const std::filesystem::path& data, const Place& place) {
 
 LinkModel::LinkModel(const std::filesystem::path& world, const std::filesystem::path& data,
                      const Library::SearchPath& plugins, const std::shared_ptr<TableCache>& tables,
-                     std::optional<uint64_t> seed)
-    : LinkModel(world_for(world, data, *tables, seed), data, plugins, tables) {}
+                     std::optional<uint64_t> seed, const std::vector<std::shared_ptr<Library>>& libraries)
+    : LinkModel(world_for(world, data, *tables, seed), data, plugins, tables, libraries) {}
 
 LinkModel::LinkModel(const World& declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
-                     const std::shared_ptr<TableCache>& tables) try
-    : MeasuredWorld(declared, options_for(declared, plugins, tables), links_of(data, {declared.file.string()})) {
+                     const std::shared_ptr<TableCache>& tables,
+                     const std::vector<std::shared_ptr<Library>>& libraries) try
+    : MeasuredWorld(declared, options_for(declared, plugins, tables, libraries),
+                    links_of(data, {declared.file.string()})) {
   ends_ = ends_now();
 } catch (const Error& error) {
   if (std::string_view(error.what()).find("beyond the scene") != std::string_view::npos) refuse_far_places(data);

@@ -23,7 +23,8 @@ class LinkModel : public MeasuredWorld {
   // The world with the readings of `data` as its links. `tables`: files already read. Throws Error.
   LinkModel(const std::filesystem::path& world, const std::filesystem::path& data, const Library::SearchPath& plugins,
             const std::shared_ptr<TableCache>& tables = std::make_shared<TableCache>(),
-            std::optional<uint64_t> seed = {});  // of its draws, instead of the world's
+            std::optional<uint64_t> seed = {},                             // of its draws, instead of the world's
+            const std::vector<std::shared_ptr<Library>>& libraries = {});  // loaded already, as of another such model
 
   // Both ends of each row, tx first.
   const std::vector<std::array<End, 2>>& ends() const { return ends_; }
@@ -50,7 +51,7 @@ class LinkModel : public MeasuredWorld {
 
  private:
   LinkModel(const World& declared, const std::filesystem::path& data, const Library::SearchPath& plugins,
-            const std::shared_ptr<TableCache>& tables);
+            const std::shared_ptr<TableCache>& tables, const std::vector<std::shared_ptr<Library>>& libraries);
   std::vector<std::array<End, 2>> ends_;
 };
 
