@@ -40,7 +40,10 @@ TEST(ObservedColumns, ANumberOfEachReadingIsNoRun) {
   std::vector<Eigen::Index> used(40);
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = static_cast<Eigen::Index>(i);
   EXPECT_TRUE(observed_columns(data, used).run.empty());
-  for (std::size_t i = 0; i < used.size(); ++i) data.covariates[0].values[i] = static_cast<double>(40 - i / 10);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const std::size_t ten = i / 10;
+    data.covariates[0].values[i] = 40 - static_cast<double>(ten);
+  }
   const std::vector<int> runs = observed_columns(data, used).run;
   ASSERT_EQ(runs.size(), used.size());
   EXPECT_EQ(runs.front(), 3);
