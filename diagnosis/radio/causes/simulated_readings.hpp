@@ -15,7 +15,7 @@ class SimulatedReadings {
   // Throws Error.
   SimulatedReadings(const LinkReadings& readings, const std::vector<std::string>& radios,
                     const std::filesystem::path& world, const Library::SearchPath& plugins, const Sensitivities& base,
-                    const std::vector<std::shared_ptr<Library>>& libraries);
+                    const std::vector<std::shared_ptr<Library>>& libraries = {});
   SimulatedReadings(const SimulatedReadings&) = delete;
   SimulatedReadings& operator=(const SimulatedReadings&) = delete;
 

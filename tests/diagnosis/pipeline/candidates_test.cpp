@@ -56,11 +56,16 @@ TEST(LocalColumns, EqualThoseOfAllReadings) {
     if (!c.design.near) continue;
     ++near;
     const Eigen::VectorXd& theta = c.design.grid[c.design.grid.size() / 2];
-    const auto columns = c.design.near(theta);
-    for (const double moved : {0.0, 0.3, 0.7, 2.0, 5.0}) {
+    const auto moved = [&](double by) {
       Eigen::VectorXd t = theta;
-      t[1] += moved, t[2] -= moved;
-      EXPECT_EQ(columns(t), c.design.columns(t)) << c.id << ' ' << moved;
+      t[1] += by, t[2] -= by;
+      return t;
+    };
+    std::vector<Eigen::VectorXd> walk;
+    for (int k = 0; k < 200; ++k) walk.push_back(moved(0.01 * k));
+    for (const auto& columns : {c.design.near({theta}), c.design.near(walk)}) {
+      for (const double by : {0.0, 0.3, 0.7, 1.5, 2.0, 5.0})
+        EXPECT_EQ(columns(moved(by)), c.design.columns(moved(by))) << c.id << ' ' << by;
     }
     EXPECT_GT(c.design.columns(theta).cwiseAbs().maxCoeff(), 0.5) << c.id;
   }
@@ -81,7 +86,7 @@ TEST(LocalColumns, FallBackToAllReadingsWhereAnEffectIsNotLocal) {
                                                hall.at.base);
   };
   const Eigen::VectorXd& theta = far.candidate.design.grid[0];
-  const auto columns = columns_near(theta, far, hall.at.layout->readings(), simulate);
+  const auto columns = columns_near({theta}, far, hall.at.layout->readings(), simulate);
   EXPECT_EQ(columns(theta), far.candidate.design.columns(theta));
 }
 
