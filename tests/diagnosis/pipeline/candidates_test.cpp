@@ -133,6 +133,26 @@ TEST(EndedRows, HaveTheSketchOfTheirParentRow) {
   EXPECT_GT(state.proposals(c, tally).size(), 10u);
 }
 
+// Of a few rows, also the first and the last ones, a column whitened where it is not zero gives what it gives as a
+// whole.
+TEST(SparseColumns, GiveWhatWholeColumnsGive) {
+  const Hall hall;
+  const inference::ModelState state(hall.at.problem, hall.at.options);
+  const inference::WhitenedModel model = state.whitened_model(state.design());
+  inference::SparseColumns thin(state, model);
+  const Eigen::Index n = state.rows().size();
+  for (Eigen::Index shift = 0; shift < 9; ++shift) {
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(n);
+    for (const Eigen::Index row : {shift, shift + 11, n / 2 + shift, n - 20 + shift, n - 1 - shift})
+      column[row] += 1 + 0.1 * static_cast<double>(row % 7);
+    ASSERT_TRUE(thin.take(column));
+    const Eigen::VectorXd left = model.at.basis.rest(model.whitener(column));
+    EXPECT_NEAR(thin.along(), left.dot(model.at.residual), 1e-9) << shift;
+    EXPECT_NEAR(thin.length(), left.squaredNorm(), 1e-9) << shift;
+  }
+  EXPECT_FALSE(thin.take(Eigen::VectorXd::Ones(n))) << "so many are whitened faster at once";
+}
+
 // One robot hears one station: what concerns all readings concerns each radio's, and is sought once.
 TEST(Candidates, OfOneReceiverAreSoughtOnce) {
   const std::filesystem::path hall = std::filesystem::path(MUSTER_SOURCE_DIR) / "worlds" / "hall";
