@@ -56,6 +56,25 @@ TextTable TextTable::with_column(std::size_t column, TextColumn label, std::vect
   return result;
 }
 
+TextTable TextTable::with_rows(const std::vector<std::size_t>& rows) const {
+  TextTable result;
+  result.file_.file = file_.file;
+  std::string& text = result.file_.text;
+  const auto add_line = [&](std::size_t line) {
+    text.append(file_.text, row_starts_[line], row_starts_[line + 1] - row_starts_[line]);
+    if (!text.ends_with('\n')) text += '\n';
+  };
+  add_line(0);
+  for (const std::size_t row : rows) add_line(row + 1);
+  result.split();
+  result.columns_ = columns_;
+  for (const auto& [column, values] : read_otherwise_) {
+    std::vector<double>& kept = result.read_otherwise_[column];
+    for (const std::size_t row : rows) kept.push_back(values[row]);
+  }
+  return result;
+}
+
 void TextTable::split() {
   const std::string& text = file_.text;
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;

@@ -50,6 +50,8 @@ class TextTable {
   }
   // The same table with one column read otherwise: a clock in seconds in place of one in nanoseconds.
   TextTable with_column(std::size_t column, TextColumn label, std::vector<double> values) const;
+  // The same columns with these rows alone, in this order. Its places count the lines that are left.
+  TextTable with_rows(const std::vector<std::size_t>& rows) const;
   bool is_replaced(std::size_t column) const { return read_otherwise_.count(column) > 0; }
   const std::vector<TextColumn>& columns() const { return columns_; }
   std::size_t rows() const { return row_starts_.size() - 2; }

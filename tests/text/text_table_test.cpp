@@ -87,6 +87,20 @@ TEST_F(Table, TakesQuotedCells) {
   EXPECT_EQ(table.text(1, 0), "say \"x\"");
 }
 
+TEST_F(Table, KeepsSomeOfItsRows) {
+  for (const char* end : {"\n", "\r\n", ""}) {
+    const TextTable table = read("a[m],b,c[s]\r\n1,x,7\r\n2,\"y,\"\"z\",8\r\n,\"3\",9" + std::string(end));
+    const TextTable some = table.with_column(2, {"c", "min"}, {70, 80, 90}).with_rows({2, 1});
+    ASSERT_EQ(some.rows(), 2u);
+    EXPECT_THAT(some.reals(0, {.empty = true}), ElementsAre(::testing::IsNan(), 2));
+    EXPECT_THAT(some.texts(1).levels, ElementsAre("3", "y,\"z"));
+    EXPECT_THAT(some.reals(2), ElementsAre(90, 80));
+    EXPECT_EQ(some.columns()[2].label(), "c[min]");
+    EXPECT_EQ(some.file(), table.file());
+    EXPECT_EQ(table.with_rows({}).rows(), 0u);
+  }
+}
+
 TEST_F(Table, KnowsNumbersFromNames) {
   const TextTable table = read("a,b,c[V],d,e\n,x,,\"7\",\n1,2,x,8,\n");
   EXPECT_TRUE(table.is_numeric(0));  // its first cell that is not empty is a number
