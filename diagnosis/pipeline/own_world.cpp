@@ -45,12 +45,13 @@ class Judge {
     const Hypotheses hypotheses = hypotheses_of(s_, found_);
     OwnWorldVerdict out{{}, {}, hypotheses.searched, hypotheses.not_tested};
     if (worlds_.rows().size() < thresholds::own_world_fewest || hypotheses.searched.empty()) return out;
+    const std::vector<Hypothesis> first = promising(hypotheses.all);
     const OwnWorld as_it_is = worlds_.world_with({});
     std::vector<OwnWorld> worlds;
     const auto left = [&](const OwnWorld& world) {
       return std::min(world.squares / as_it_is.squares, world.levelled / as_it_is.levelled);
     };
-    for (const Hypothesis& h : promising(hypotheses.all)) {
+    for (const Hypothesis& h : first) {
       OwnWorld world = worlds_.world_with(h);
       if (left(world) < thresholds::own_world_share) worlds.push_back(std::move(world));
     }
@@ -82,17 +83,16 @@ class Judge {
       const Hypothesis* hypothesis;
       double squares;
     };
-    ParameterGuard declared(s_.model);
-    for (const FitParameter& p : s_.fitted.parameters) declared.set(p.path, p.start);
-    const VectorXd plain = s_.model.expected()(worlds_.rows());
+    const auto [plain, with] = worlds_.declared_levels(all);
     const std::vector<std::size_t> one(worlds_.rows().size(), 0);
     const auto about = [&](const VectorXd& levels, const std::vector<std::size_t>& group) {
       return rest_about(centred(levels, group), centred(worlds_.measured(), group));
     };
     const double squares = about(plain, one), levelled = about(plain, worlds_.radio());
     std::vector<Scored> scored;  // as shares of those of the world as it is
-    for (const Hypothesis& h : all) {
-      const VectorXd levels = worlds_.levels_with(h);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Hypothesis& h = all[k];
+      const VectorXd& levels = with[k];
       if (levels.size() == 0 || (levels - plain).cwiseAbs().maxCoeff() < thresholds::own_world_change) continue;
       ++tried_;
       double left = about(levels, one) / squares;

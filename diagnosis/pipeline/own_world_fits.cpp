@@ -44,6 +44,29 @@ VectorXd bounded_least_squares(const MatrixXd& design, VectorXd y, const VectorX
   return result;
 }
 
+// About so many of the readings of the search, fewer than twice as many, one at random of each stretch: each so manieth
+// would be of one link where links take turns.
+std::vector<Index> some_of(std::size_t all) {
+  const std::size_t every = std::max<std::size_t>(1, all / thresholds::own_world_readings);
+  const Stream any(key_of("readings of own worlds"));
+  std::vector<Index> result;
+  for (std::size_t first = 0; first + every <= all; first += every)
+    result.push_back(static_cast<Index>(first) + static_cast<Index>(any.uniform(first) * static_cast<double>(every)));
+  return result;
+}
+
+std::vector<Index> those(const std::vector<Index>& rows, const std::vector<Index>& which) {
+  std::vector<Index> result;
+  for (const Index i : which) result.push_back(rows[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+// Levels, or their slopes by parameters of the world.
+bool alike(const MatrixXd& a, const MatrixXd& b) {
+  constexpr double much = 1e-6;  // dB
+  return a.size() == b.size() && (a.size() == 0 || (a - b).cwiseAbs().maxCoeff() < much);
+}
+
 }  // namespace
 
 VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) {
@@ -62,15 +85,12 @@ VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) 
 }
 
 OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit, const VectorXd& levels)
-    : s_(setup), moved_(setup.model), scale_(scale_of(setup.model)), time_unit_(time_unit) {
-  const std::size_t all = s_.used.rows.size();
-  const std::size_t every = std::max<std::size_t>(1, all / thresholds::own_world_readings);
-  const Stream any(key_of("readings of own worlds"));  // each so manieth would be of one link where links take turns
-  for (std::size_t first = 0; first + every <= all; first += every) {
-    const std::size_t i = first + static_cast<std::size_t>(any.uniform(first) * static_cast<double>(every));
-    kept_.push_back(s_.used.rows[i]);
-    of_used_.push_back(static_cast<Index>(i));
-  }
+    : s_(setup),
+      of_used_(some_of(s_.used.rows.size())),
+      kept_(those(s_.used.rows, of_used_)),
+      all_(s_.model, kept_),
+      scale_(scale_of(setup.model)),
+      time_unit_(time_unit) {
   y_ = levels(of_used_);
   // What each radio sends, or each hears where one sends.
   const bool of_senders = s_.data.tx.levels.size() > 1;
@@ -80,26 +100,73 @@ OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit, const Vector
   set(s_.base.values);
 }
 
+// Levels and slopes of the world as it is must be those among all readings.
+void OwnWorldFits::look_at_few() {
+  auto made = with_fewer_readings(s_.model, s_.file, kept_);
+  if (!made) return;
+  few_.emplace(std::move(*made));
+  const MatrixXd slopes = slopes_at(few_->by.model, s_.base);
+  set(s_.base.values);
+  if (!alike(few_->by.levels(), s_.base.mean(kept_)) ||
+      !alike(slopes(few_->by.rows, Eigen::all), s_.base.slopes(kept_, Eigen::all)))
+    few_.reset();
+}
+
 bool OwnWorldFits::may_level() const { return radios_.size() > 1 && radios_.size() <= thresholds::own_world_levels; }
 
-VectorXd OwnWorldFits::levels_with(const Hypothesis& h) try {
-  const Supposed supposed(s_.model, h);
-  return s_.model.expected()(kept_);
+VectorXd OwnWorldFits::Predictor::levels_with(const Hypothesis& h) try {
+  const Supposed supposed(model, h);
+  return levels();
 } catch (const Error&) {
   return {};
 }
 
+DeclaredLevels OwnWorldFits::declared_levels(const std::vector<Hypothesis>& all) {
+  look_at_few();
+  ParameterGuard declared(s_.model);
+  std::optional<ParameterGuard> declared_of_few;
+  if (few_) declared_of_few.emplace(few_->by.model);
+  for (const FitParameter& p : s_.fitted.parameters) {
+    declared.set(p.path, p.start);
+    if (few_) declared_of_few->set(p.path, p.start);
+  }
+  DeclaredLevels result{all_.levels(), {}};
+  const auto change = [&](std::size_t k) {
+    return result.with[k].size() > 0 ? (result.with[k] - result.plain).cwiseAbs().maxCoeff() : -1;
+  };
+  std::map<Kind, std::size_t> most;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    result.with.push_back(predictor_for(all[k]).levels_with(all[k]));
+    const auto [entry, is_new] = most.try_emplace(kind_of(all[k]), k);
+    if (!is_new && change(k) > change(entry->second)) entry->second = k;
+  }
+  if (!few_) return result;
+  // A cause may take what a reading is from others, as of rows that slipped: each is looked at where it changes most.
+  for (const auto& [kind, at] : most) {
+    const VectorXd by_all = all_.levels_with(all[at]);
+    if (alike(result.with[at], by_all)) continue;
+    by_all_.insert(kind);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (kind_of(all[k]) == kind) result.with[k] = k == at ? by_all : all_.levels_with(all[k]);
+  }
+  return result;
+}
+
 void OwnWorldFits::set(const VectorXd& values) {
-  for (std::size_t j = 0; j < s_.base.paths.size(); ++j) moved_.set(s_.base.paths[j], values[static_cast<Index>(j)]);
+  for (std::size_t j = 0; j < s_.base.paths.size(); ++j) {
+    all_.moved.set(s_.base.paths[j], values[static_cast<Index>(j)]);
+    if (few_) few_->by.moved.set(s_.base.paths[j], values[static_cast<Index>(j)]);
+  }
 }
 
 OwnWorld OwnWorldFits::world_with(const Hypothesis& hypothesis) {
   set(s_.base.values);
-  Supposed supposed(s_.model, hypothesis);
+  Predictor& predictor = predictor_for(hypothesis);
+  Supposed supposed(predictor.model, hypothesis);
   OwnWorld world = linearised(hypothesis);
   for (int round = 0; round < 2 && world.hypothesis.place; ++round) {
     set(world.values);
-    world.hypothesis.place = supposed.move(moved_to_best(supposed, *world.hypothesis.place));
+    world.hypothesis.place = supposed.move(moved_to_best(supposed, predictor, *world.hypothesis.place));
     world = linearised(world.hypothesis);
   }
   set(s_.base.values);
@@ -108,33 +175,30 @@ OwnWorld OwnWorldFits::world_with(const Hypothesis& hypothesis) {
 
 // At the parameters of the fit.
 OwnWorld OwnWorldFits::linearised(const Hypothesis& hypothesis) {
+  Predictor& predictor = predictor_for(hypothesis);
   Sensitivities own = s_.base;
-  own.slopes = slopes_at(s_.model, own);
+  own.slopes = slopes_at(predictor.model, own);
   set(own.values);
-  own.mean = s_.model.expected();
-  OwnWorld world{hypothesis, 0, 0, y_ - own.offset()(kept_), own.slopes(kept_, Eigen::all)};
+  own.mean = predictor.model.expected();
+  OwnWorld world{hypothesis, 0, 0, y_ - own.offset()(predictor.rows), own.slopes(predictor.rows, Eigen::all)};
+  const auto ends = predictor.model.ends_now();
+  for (const Index row : predictor.rows) world.ends.push_back(ends[static_cast<std::size_t>(row)]);
+  world.rows = std::make_shared<std::optional<RowsOfWorld>>();
   world.values = bounded_least_squares(world.design, world.rest, own.lower, own.upper);
   world.squares = (world.rest - world.design * world.values).squaredNorm();
   world.levelled = world.squares;
-  if (!may_level()) return with_ends(std::move(world));
+  if (!may_level()) return world;
   MatrixXd design = world.design;
   for (Index j = 0; j < design.cols(); ++j) design.col(j) = centred(world.design.col(j), radio_);
   const VectorXd rest = centred(world.rest, radio_);
   world.levelled = (rest - design * bounded_least_squares(design, rest, own.lower, own.upper)).squaredNorm();
-  return with_ends(std::move(world));
-}
-
-OwnWorld OwnWorldFits::with_ends(OwnWorld world) const {
-  const auto ends = s_.model.ends_now();
-  for (const Index row : kept_) world.ends.push_back(ends[static_cast<std::size_t>(row)]);
-  world.rows = std::make_shared<std::optional<RowsOfWorld>>();
   return world;
 }
 
-InPlan OwnWorldFits::moved_to_best(Supposed& supposed, const InPlan& start) {
+InPlan OwnWorldFits::moved_to_best(Supposed& supposed, Predictor& predictor, const InPlan& start) {
   const auto value = [&](const VectorXd& theta) {
     supposed.move({theta[0], theta[1]});
-    const VectorXd rest = y_ - s_.model.expected()(kept_);
+    const VectorXd rest = y_ - predictor.levels();
     return -(rest.array() - rest.mean()).square().sum();
   };
   inference::Candidate place;
@@ -211,20 +275,21 @@ InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance
   const OwnWorld start = world;  // its rows, whatever becomes of the place
   const auto& [rows, field] = rows_of(start);
   const noise::Whitener whitener(field, covariance);
+  Predictor& predictor = predictor_for(world.hypothesis);
   for (int round = 0; round < 2; ++round) {
     set(world.values);
     MatrixXd columns(static_cast<Index>(kept_.size()), 2);
     {
-      Supposed supposed(s_.model, world.hypothesis);
+      Supposed supposed(predictor.model, world.hypothesis);
       const InPlan at = *world.hypothesis.place;
       for (const std::size_t k : {0, 1}) {
         InPlan more = at, less = at;
         more[k] += step;
         less[k] -= step;
         supposed.move(more);
-        columns.col(static_cast<Index>(k)) = s_.model.expected()(kept_);
+        columns.col(static_cast<Index>(k)) = predictor.levels();
         supposed.move(less);
-        columns.col(static_cast<Index>(k)) -= s_.model.expected()(kept_);
+        columns.col(static_cast<Index>(k)) -= predictor.levels();
       }
     }
     columns /= 2 * step;
@@ -236,7 +301,7 @@ InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance
       sd[k] = std::sqrt(uncertainty(static_cast<Index>(k), static_cast<Index>(k)));
       (*world.hypothesis.place)[k] += std::clamp(by[static_cast<Index>(k)], -1.0, 1.0);
     }
-    Supposed supposed(s_.model, world.hypothesis);
+    Supposed supposed(predictor.model, world.hypothesis);
     const Hypothesis here = world.hypothesis;
     world = linearised(here);
   }
@@ -250,11 +315,12 @@ void OwnWorldFits::stepped(OwnWorld& world, const noise::Rows& rows, const noise
   constexpr double reach = 0.25, step = 0.03;  // m
   const noise::Whitened base = noise::whitened(whitener, rows.mean(world.rest), rows.mean(world.design), prior());
   set(world.values);
-  Supposed supposed(s_.model, world.hypothesis);
-  const VectorXd before = s_.model.expected()(kept_);
+  Predictor& predictor = predictor_for(world.hypothesis);
+  Supposed supposed(predictor.model, world.hypothesis);
+  const VectorXd before = predictor.levels();
   const auto value = [&](const VectorXd& theta) {
     supposed.move({theta[0], theta[1]});
-    const VectorXd moved = s_.model.expected()(kept_) - before;
+    const VectorXd moved = predictor.levels() - before;
     return -(base.residual - base.basis.rest(whitener(rows.mean(moved)))).squaredNorm();
   };
   inference::Candidate place;

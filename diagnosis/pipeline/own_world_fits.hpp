@@ -3,13 +3,17 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/inference/noise/fit.hpp"
 #include "diagnosis/pipeline/own_world_hypotheses.hpp"
+#include "diagnosis/radio/links/fewer_readings.hpp"
 #include "diagnosis/radio/links/link_rows.hpp"
 
 namespace muster::diagnosis {
@@ -33,6 +37,12 @@ struct OwnWorld {
   std::shared_ptr<std::optional<RowsOfWorld>> rows{};
 };
 
+// Levels at the world's declared parameters, dBm.
+struct DeclaredLevels {
+  Eigen::VectorXd plain;              // of the world as it is
+  std::vector<Eigen::VectorXd> with;  // each hypothesis; empty if it cannot run in this world
+};
+
 struct Likelihood {
   double nats = -std::numeric_limits<double>::infinity();
   noise::Covariance noise{};
@@ -40,7 +50,7 @@ struct Likelihood {
 
 class OwnWorldFits {
  public:
-  // The model is at the setup's fitted parameters as long as this lives, but while a world is fitted.
+  // The models are at the setup's fitted parameters as long as this lives, but while a world is fitted.
   // `time_unit`: of a diagnosis whose errors are correlated over time (Diagnosis::time_unit), s; else 0. `levels`: of
   // the readings used, dBm; what was heard alone would be the stronger ones.
   OwnWorldFits(DiagnosisSetup& setup, double time_unit, const Eigen::VectorXd& levels);
@@ -50,8 +60,9 @@ class OwnWorldFits {
   const std::vector<std::size_t>& radio() const { return radio_; }  // of each: which sends, or hears where one sends
   double numbers_of_levels() const { return static_cast<double>(radios_.size()) - 1; }
   bool may_level() const;  // True if radios are few enough for a level of each
-  // dBm, expected with the hypothesis; empty if it cannot run in this world.
-  Eigen::VectorXd levels_with(const Hypothesis& hypothesis);
+  // Finds out, too, with which hypotheses a smaller model predicts the readings used as that of all does: before it,
+  // and with the others, all are evaluated.
+  DeclaredLevels declared_levels(const std::vector<Hypothesis>& all);
   // The world with the hypothesis: its place and the parameters are fitted in turn.
   OwnWorld world_with(const Hypothesis& hypothesis);
   // With a level of each radio but one.
@@ -62,22 +73,44 @@ class OwnWorldFits {
   InPlan settle(OwnWorld& world, const noise::Covariance& covariance);
 
  private:
+  // A model, and which of its rows are the readings used.
+  struct Predictor {
+    Predictor(LinkModel& of, std::vector<Eigen::Index> at) : model(of), rows(std::move(at)), moved(of) {}
+    Eigen::VectorXd levels() { return model.expected()(rows); }
+    Eigen::VectorXd levels_with(const Hypothesis& hypothesis);  // empty if it cannot run
+
+    LinkModel& model;
+    std::vector<Eigen::Index> rows;
+    ParameterGuard moved;
+  };
+  struct Few {
+    explicit Few(FewerReadings made) : of(std::move(made)), by(*of.model, of.rows) {}
+
+    FewerReadings of;
+    Predictor by;
+  };
+  using Kind = std::pair<const Cause*, std::map<std::string, std::string>>;  // a cause and its choices
+
+  static Kind kind_of(const Hypothesis& h) { return {h.cause, h.words}; }
+  Predictor& predictor_for(const Hypothesis& h) { return few_ && !by_all_.contains(kind_of(h)) ? few_->by : all_; }
+  void look_at_few();
   void set(const Eigen::VectorXd& values);
   // Worlds as a whole are compared, so that a long field takes nothing from one of them.
   const noise::Prior& prior() const {
     return s_.options.longer && time_unit_ == 0 ? *s_.options.longer : s_.options.prior;
   }
   OwnWorld linearised(const Hypothesis& hypothesis);
-  OwnWorld with_ends(OwnWorld world) const;
-  InPlan moved_to_best(Supposed& supposed, const InPlan& start);
+  InPlan moved_to_best(Supposed& supposed, Predictor& predictor, const InPlan& start);
   void stepped(OwnWorld& world, const noise::Rows& rows, const noise::Whitener& whitener);
   LinkReadings readings_of(const OwnWorld& world) const;
   std::vector<Eigen::Index> twins_in(const OwnWorld& world) const;
   const RowsOfWorld& rows_of(const OwnWorld& world) const;
 
   DiagnosisSetup& s_;
-  ParameterGuard moved_;
-  std::vector<Eigen::Index> kept_, of_used_;  // rows of the table; the same among those of the search
+  std::vector<Eigen::Index> of_used_, kept_;  // among the rows of the search; of the table
+  Predictor all_;
+  std::optional<Few> few_;
+  std::set<Kind> by_all_;  // with which a reading depends on others
   std::vector<std::size_t> radio_;
   std::set<std::size_t> radios_;
   Eigen::VectorXd y_;

@@ -31,10 +31,10 @@ struct DamagedLog {
 
 class DamagedLogMaker {
  public:
-  DamagedLogMaker(Fault fault, unsigned seed)
+  explicit DamagedLogMaker(Fault fault, unsigned seed, int rows = 900)
       : random_(seed * 7919u + static_cast<unsigned>(fault)), seed_(seed), fault_(fault) {
     draw_site();
-    draw_log();
+    draw_log(rows);
     damage();
   }
 
@@ -119,10 +119,10 @@ class DamagedLogMaker {
   }
 
   // From point to point at half a metre a second; a reading of any station every 1.5 s or so.
-  void draw_log() {
+  void draw_log(int rows) {
     Place at{between(1, width_ - 1), between(1, depth_ - 1), 0.4}, goal = at;
     double t = 0;
-    for (int row = 0; row < 900; ++row) {
+    for (int row = 0; row < rows; ++row) {
       double way = between(0.5, 1);
       t = centimetre(t + 2 * way);
       while (true) {

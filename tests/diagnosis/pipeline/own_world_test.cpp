@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <tuple>
 
 #include "diagnosis/pipeline/closed_loop.hpp"
 #include "diagnosis/pipeline/diagnose.hpp"
 #include "diagnosis/pipeline/exchanged_identity.hpp"
+#include "diagnosis/pipeline/own_world_fits.hpp"
 #include "diagnosis/pipeline/own_world_hypotheses.hpp"
 #include "diagnosis/radio/causes/place_grid.hpp"
 #include "tests/diagnosis/pipeline/damaged_log.hpp"
@@ -86,6 +88,48 @@ TEST(Hypotheses, BeginAtWhatMisplacedRadiosHaveInCommon) {
   EXPECT_EQ(now.size(), rings + 2);
   EXPECT_TRUE(std::any_of(now.begin(), now.end(),
                           [](const InPlan& p) { return std::abs(p[0] - 4.5) < 1e-9 && std::abs(p[1] + 1) < 1e-9; }));
+}
+
+// Worlds are judged by some of many readings, which a smaller model predicts: as all do, also where a row takes what it
+// is from another one, as in a log whose columns slipped.
+TEST(OwnWorldFits, FewReadingsGiveTheLevelsThatAllGive) {
+  const Scratch scratch;
+  const DamagedLog log = DamagedLogMaker(Fault::none, 1, 9000).write(scratch);
+  DiagnosisSetup setup(log.world, log.table, plugins, std::make_shared<TableCache>());
+  Diagnosis found;
+  const std::vector<Hypothesis> all = hypotheses_of(setup, found).all;
+  setup.run->clear();
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(setup.used.rows.size()));
+  const auto shifted = std::find_if(all.begin(), all.end(), [](const Hypothesis& h) { return h.place.has_value(); });
+  ASSERT_NE(shifted, all.end());
+  const OwnWorld as_all_have_it = OwnWorldFits(setup, 0, none).world_with(*shifted);
+  const int before = setup.model.evaluations();
+  OwnWorldFits fits(setup, 0, none);
+  const DeclaredLevels levels = fits.declared_levels(all);
+  const OwnWorld world = fits.world_with(*shifted);
+  EXPECT_LT(setup.model.evaluations() - before, static_cast<int>(all.size() / 2));
+  EXPECT_LT((world.rest - as_all_have_it.rest).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((world.design - as_all_have_it.design).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(world.squares, as_all_have_it.squares, 1e-6);
+  EXPECT_EQ(world.hypothesis.place, as_all_have_it.hypothesis.place);
+  for (std::size_t i = 0; i < world.ends.size(); ++i) {
+    EXPECT_EQ(world.ends[i][0].x, as_all_have_it.ends[i][0].x);
+    EXPECT_EQ(world.ends[i][1].radio, as_all_have_it.ends[i][1].radio);
+  }
+  ParameterGuard declared(setup.model);
+  for (const FitParameter& p : setup.fitted.parameters) declared.set(p.path, p.start);
+  EXPECT_EQ(levels.plain, setup.model.expected()(fits.rows()));
+  std::map<std::string, int> differing;  // by cause: hypotheses that change levels
+  ASSERT_EQ(levels.with.size(), all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Supposed supposed(setup.model, all[k]);
+    const Eigen::VectorXd whole = setup.model.expected()(fits.rows());
+    ASSERT_EQ(levels.with[k].size(), whole.size()) << all[k].label();
+    EXPECT_LT((levels.with[k] - whole).cwiseAbs().maxCoeff(), 1e-9) << all[k].cause->id << ' ' << all[k].label();
+    differing[all[k].cause->id] += (whole - levels.plain).cwiseAbs().maxCoeff() > 1;
+  }
+  for (const char* id : {"effect.column_shifted", "effect.labels_shifted", "effect.plan_shifted", "effect.plan_turned"})
+    EXPECT_GT(differing[id], 0) << id;
 }
 
 // A search of places may step beyond what a cause allows.
