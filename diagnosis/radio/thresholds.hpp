@@ -402,11 +402,9 @@ inline constexpr double interval_nats = 1.92;
 // FadingTests.ShapesOfASubsetAreRankedByAllReadings
 inline constexpr double hopeless_shape_nats = 60;
 // readings; from which shapes are fitted to a sample first; chosen; none
-inline constexpr Eigen::Index sampled_from = 10000;
-// readings; of that sample, at least; chosen; FadingTests.ShapesOfASubsetAreRankedByAllReadings
-inline constexpr Eigen::Index sample_size = 4000;
-// readings; for one in the sample, at most; chosen; none
-inline constexpr Eigen::Index sampled_share = 5;
+inline constexpr Eigen::Index sampled_from = 30000;
+// readings; of that sample; chosen; none
+inline constexpr Eigen::Index sample_size = 10000;
 // readings; for a rough value of the log-likelihood; chosen; none
 inline constexpr Eigen::Index rough_readings = 3000;
 // m; of both ends jointly, within which readings are side by side; chosen;

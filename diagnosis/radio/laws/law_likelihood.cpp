@@ -91,43 +91,28 @@ Peak LawLikelihood::best_distance(const ReadingDistribution& law, const Peak& fr
   return best;
 }
 
-Peak LawLikelihood::closer_distance(const ReadingDistribution& law, const Peak& from) {
-  constexpr int by = distances / 2, farthest_rounds = 8;
-  const auto moved = [&](const Peak& peak, int way) {
-    Peak next = peak;
-    next.shape.distance += way;
-    return best(law, next);
-  };
-  Peak here = best(law, from), nearer = moved(here, -by), farther = moved(here, by);
-  for (int round = 0; round < farthest_rounds && std::max(nearer.value, farther.value) > here.value; ++round) {
-    if (nearer.value > farther.value) {
-      farther = std::exchange(here, nearer);
-      nearer = moved(here, -by);
-    } else {
-      nearer = std::exchange(here, farther);
-      farther = moved(here, by);
+Peak LawLikelihood::closer_distance(const ReadingDistribution& law, Peak best) {
+  for (int by = distances / 2; by >= distances / 16; by /= 2) {
+    for (const int way : {-by, by}) {
+      Peak next = best;
+      next.shape.distance += way;
+      next = this->best(law, next);
+      if (next.value <= best.value) continue;
+      best = next;
+      break;
     }
   }
-  const double bend = 2 * here.value - nearer.value - farther.value, slope = (farther.value - nearer.value) / 2;
-  const int vertex = bend > std::abs(slope) ? static_cast<int>(std::lround(by * slope / bend)) : 0;
-  if (vertex == 0) return here;
-  const Peak there = moved(here, vertex);
-  return there.value > here.value ? there : here;
+  return best;
 }
 
 std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const noise::Covariance& from) {
   if (field_.size() < thresholds::sampled_from) return shapes_by_all(law, from);
-  if (!sample_)
-    sample_.emplace(field_.some(std::max(thresholds::sample_size, field_.size() / thresholds::sampled_share)));
-  LawLikelihood by_sample(*sample_, step_);
-  std::vector<Peak> result = by_sample.shapes_by_all(law, from);
+  KrigedReadings sample = field_.some(thresholds::sample_size);
+  std::vector<Peak> result = LawLikelihood(sample, step_).shapes_by_all(law, from);
   double most = -1e300;
+  for (Peak& peak : result) most = std::max(most, peak.value = value(law, peak));
   for (Peak& peak : result) {
-    peak = by_sample.closer_distance(law, peak);
-    most = std::max(most, peak.value = value(law, peak));
-  }
-  for (Peak& peak : result) {
-    if (peak.value > most - thresholds::hopeless_shape_nats) peak = closer_distance(law, peak);
+    if (peak.value > most - thresholds::hopeless_shape_nats) peak = best_distance(law, peak);
   }
   return result;
 }

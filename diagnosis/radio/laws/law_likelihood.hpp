@@ -1,7 +1,6 @@
 // Log-likelihood of single readings under a fading law, maximised over the shadowing covariance.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "diagnosis/radio/laws/kriging.hpp"
@@ -27,10 +26,10 @@ class LawLikelihood {
   Peak best(const ReadingDistribution& law, Peak from);
   // Maximises over size and decorrelation distance.
   Peak best_distance(const ReadingDistribution& law, const Peak& from);
-  // The same by finer steps from a peak at its distance, and by a parabola between them.
-  Peak closer_distance(const ReadingDistribution& law, const Peak& from);
+  // Refines the distance to a fiftieth, from a start.
+  Peak closer_distance(const ReadingDistribution& law, Peak from);
   // The maximum of each family, from a covariance. Many readings: first on a subsample, then on all for families that
-  // remain possible; the others are as the subsample has them.
+  // remain possible.
   std::vector<Peak> shapes(const ReadingDistribution& law, const noise::Covariance& from);
   // At one grid point.
   double value(const ReadingDistribution& law, const Peak& there);
@@ -54,7 +53,6 @@ class LawLikelihood {
 
   KrigedReadings& field_;
   double step_;
-  std::optional<KrigedReadings> sample_{};  // made when first asked for
 };
 
 }  // namespace muster::diagnosis
