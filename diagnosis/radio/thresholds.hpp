@@ -279,6 +279,9 @@ inline constexpr double needs_law = 1;
 // probability; of as many pairs of successive readings that need it by chance; chosen;
 // Survey.ReadingsThatAreOffInRunsAreNoOutliers
 inline constexpr double pairs_alpha = 1e-4;
+// factor; of pairs by chance, beyond which readings that need a law come in runs; chosen;
+// Survey.ReadingsThatAreOffInRunsAreNoOutliers
+inline constexpr double pairs_of_runs = 4;
 // share; of readings of a link that need a law and are called alike; chosen; none
 inline constexpr double alike_share = 0.25;
 // factor; of that share, beyond which pairs of successive readings are what lasts; chosen;

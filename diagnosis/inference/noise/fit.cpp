@@ -19,15 +19,41 @@ Eigen::Matrix4d bounded(const Eigen::Matrix4d& information) {
          solver.eigenvectors().transpose();
 }
 
+struct Step {
+  Theta whole = Theta::Zero();
+  double expected = 0;  // nats, by which the value falls
+};
+
+// A scoring step along the entries of `moves`. Those at a limit over which the gradient leads stay there, and then
+// those over which the others' step does: cut off at the limit, a step to the free minimum may lead up (an active set;
+// Nocedal and Wright, Numerical Optimization, 2006, section 16.7).
+Step scoring_step(const Theta& theta, const Objective& here, const Prior& prior, Theta moves) {
+  const Theta lower = prior.lower(), upper = prior.upper();
+  const auto held = [&](const Theta& way) {
+    Theta left = moves;
+    for (Eigen::Index j = 0; j < way.size(); ++j) {
+      if ((theta[j] <= lower[j] && way[j] < 0) || (theta[j] >= upper[j] && way[j] > 0)) left[j] = 0;
+    }
+    return left;
+  };
+  moves = held(-here.gradient);
+  while (true) {
+    const Theta gradient = moves.cwiseProduct(here.gradient);
+    const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
+    const Theta whole = moves.cwiseProduct(-curvature.ldlt().solve(gradient));
+    const Theta left = held(whole);
+    if (left == moves) return {whole, -whole.dot(gradient) / 2};
+    moves = left;
+  }
+}
+
 constexpr double unlimited = std::numeric_limits<double>::max();
 
 // Ends early where the value would stay above `to_beat` even if it fell by several times what is expected.
 Fit fit_from(Covariance at, Objective here, const Field& field, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
              const Prior& prior, int steps, const Theta& moves, double to_beat = unlimited) {
   for (int step = 0; step < steps; ++step) {
-    const Eigen::Matrix4d curvature = bounded(moves.asDiagonal() * here.information * moves.asDiagonal());
-    const Theta gradient = moves.cwiseProduct(here.gradient), whole = -curvature.ldlt().solve(gradient);
-    const double expected = -whole.dot(gradient) / 2;  // nats
+    const auto [whole, expected] = scoring_step(at.theta, here, prior, moves);
     if (expected < 0.01 || here.value - inference::thresholds::trusted_multiple * expected > to_beat) break;
     Theta move = whole / std::max(1.0, whole.cwiseAbs().maxCoeff());
     bool better = false;

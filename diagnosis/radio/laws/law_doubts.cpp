@@ -49,11 +49,13 @@ struct Successive {
   int pairs = 0, alike = 0;
   double by_chance = 0;  // pairs in another order of each link's readings
 
-  // What lasts makes more pairs than chance, and nearly all alike. A level that is a little off makes more of them,
-  // too, where a law no longer fits so well, but none more alike than a quarter of them.
+  // What lasts makes more pairs than chance: several times as many where it is rare, and nearly all alike, unless the
+  // field follows it in part. A level that is a little off makes more of them, too, where a law no longer fits so well,
+  // but not many more, and none more alike than a quarter of them.
   bool in_runs() const {
     return pairs > 0 && poisson_tail(by_chance, pairs) < thresholds::pairs_alpha &&
-           alike > thresholds::lasting * thresholds::alike_share * pairs;
+           (pairs > thresholds::pairs_of_runs * by_chance ||
+            alike > thresholds::lasting * thresholds::alike_share * pairs);
   }
 };
 
