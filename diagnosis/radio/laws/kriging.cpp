@@ -94,27 +94,47 @@ Intercept intercept_of(const VectorXd& y, const Eigen::ArrayXd& x) {
 
 }  // namespace
 
+std::shared_ptr<const Kriging::Weights> Kriging::weights(const FieldShape& shape, int place) {
+  constexpr std::size_t most = 32'000'000;  // numbers that are kept, 8 bytes each
+  const auto found = kept_.find({shape, place});
+  if (found != kept_.end()) return found->second;
+  constexpr double log_variance = 3;  // the field's, dB^2; the result does not depend on it
+  const noise::Covariance at{shape.family, {log_variance, 1e-3 * shape.distance, log_variance + 1e-3 * place, 0}};
+  const auto result = std::make_shared<Weights>(Weights{noise::Whitener(field_, at), {}, {}});
+  const VectorXd own = Eigen::Map<const VectorXd>(result->whitener.stencil().own.data(), field_.size());
+  result->spread = ((own.array().inverse().square() - at.reading_variance()) / at.field_variance()).max(1e-3).matrix();
+  result->log_spread = result->spread.array().log();
+  const auto numbers = static_cast<std::size_t>(field_.size() * (field_.slots() + 3));
+  if ((kept_.size() + 1) * numbers <= most) kept_.emplace(std::pair(shape, place), result);
+  return result;
+}
+
 KrigedReadings::KrigedReadings(const LinkReadings& readings, const VectorXd& residual,
                                std::shared_ptr<const noise::StatedCorrelation> stated, noise::Family fitted,
                                double time_unit)
-    : KrigedReadings(
-          residual(finite_of(residual)),
-          noise::Field(sites_of(those(readings, finite_of(residual)), std::move(stated), time_unit), conditioning),
-          fitted, 4) {}
+    : KrigedReadings(residual(finite_of(residual)),
+                     std::make_shared<Kriging>(noise::Field(
+                         sites_of(those(readings, finite_of(residual)), std::move(stated), time_unit), conditioning)),
+                     fitted, 4) {}
 
-KrigedReadings::KrigedReadings(VectorXd residual, noise::Field field, noise::Family fitted, double far_off)
+KrigedReadings::KrigedReadings(VectorXd residual, std::shared_ptr<Kriging> kriging, noise::Family fitted,
+                               double far_off)
     : residual_(std::move(residual)),
-      field_(std::move(field)),
+      kriging_(std::move(kriging)),
       fitted_(fitted),
-      judged_(repeats_of(field_.recurring(), residual_.size(), fitted)),
+      judged_(repeats_of(kriging_->field().recurring(), residual_.size(), fitted)),
       far_off_(far_off) {}
 
 KrigedReadings KrigedReadings::untamed() const {
-  return {residual_, field_, fitted_, std::numeric_limits<double>::infinity()};
+  return {residual_, kriging_, fitted_, std::numeric_limits<double>::infinity()};
+}
+
+KrigedReadings KrigedReadings::with(VectorXd residual) const {
+  return {std::move(residual), kriging_, fitted_, far_off_};
 }
 
 std::vector<noise::Family> KrigedReadings::families() const {
-  if (noise::fixed_share(fitted_) == 0) return field_.families();
+  if (noise::fixed_share(fitted_) == 0) return kriging_->field().families();
   std::vector<noise::Family> result{fitted_};
   for (const noise::Family next : {noise::with_less_fixed(fitted_), noise::with_more_fixed(fitted_)}) {
     if (next != fitted_) result.push_back(next);
@@ -126,7 +146,7 @@ KrigedReadings KrigedReadings::some(Index about) const {
   constexpr Index whole = 100;  // mean readings a cell: more than a neighbourhood
   std::vector<Index> cells;
   for (double side = 0.5; side < 1000; side *= 2) {  // m
-    cells = cells_of(field_.sites(), side);
+    cells = cells_of(kriging_->field().sites(), side);
     if (size() >= whole * (*std::max_element(cells.begin(), cells.end()) + 1)) break;
   }
   const Index every = (size() + about - 1) / about;
@@ -134,19 +154,16 @@ KrigedReadings KrigedReadings::some(Index about) const {
   for (Index i = 0; i < size(); ++i) {
     if (cells[static_cast<std::size_t>(i)] % every == 0) chosen.push_back(i);
   }
-  return {residual_(chosen), noise::Field(field_.sites().of(chosen), conditioning), fitted_, far_off_};
+  return {residual_(chosen),
+          std::make_shared<Kriging>(noise::Field(kriging_->field().sites().of(chosen), conditioning)), fitted_,
+          far_off_};
 }
 
 const ReadingView& KrigedReadings::view(const FieldShape& shape, int place) {
   const auto found = known_.find({shape, place});
   if (found != known_.end()) return found->second;
-  constexpr double log_variance = 3;  // the field's, dB^2; the result does not depend on it
-  const noise::Covariance at{shape.family, {log_variance, 1e-3 * shape.distance, log_variance + 1e-3 * place, 0}};
-  const noise::Whitener whitener(field_, at);
-  const VectorXd own = Eigen::Map<const VectorXd>(whitener.stencil().own.data(), size());
-  const Eigen::ArrayXd spread = (own.array().inverse().square() - at.reading_variance()) / at.field_variance();
-  ReadingView view{1e-3 * place, error_by(whitener), spread.max(1e-3), {}};
-  view.log_spread = view.spread.array().log();
+  const auto weights = kriging_->weights(shape, place);
+  ReadingView view{1e-3 * place, error_by(weights->whitener), weights->spread, weights->log_spread};
   return known_.emplace(std::pair(shape, place), std::move(view)).first->second;
 }
 
@@ -159,21 +176,22 @@ VectorXd KrigedReadings::error_by(const noise::Whitener& whitener) const {
 
 CloseReadings KrigedReadings::close_readings() const {
   // Side by side the variogram of shadowing is linear, or parabolic for a smooth field.
-  const noise::Sites& sites = field_.sites();
+  const noise::Field& field = kriging_->field();
+  const noise::Sites& sites = field.sites();
   std::vector<bool> paired(static_cast<std::size_t>(size()), false);
   std::vector<double> apart, half, beside;
   std::vector<Index> first;
   const auto mean_of_others = [&](Index i, Index j) {
     double sum = 0, count = 0;
-    for (int a = 0; a < field_.slots() && count < thresholds::readings_beside_a_pair; ++a) {
-      const Index k = field_.neighbour(i, a);
+    for (int a = 0; a < field.slots() && count < thresholds::readings_beside_a_pair; ++a) {
+      const Index k = field.neighbour(i, a);
       if (k >= 0 && k != j) sum += residual_[k], count += 1;
     }
     return count > 0 ? sum / count : 0;
   };
   for (Index i = 0; i < size(); ++i) {
-    for (int a = 0; a < field_.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
-      const Index j = field_.neighbour(i, a);
+    for (int a = 0; a < field.slots() && !paired[static_cast<std::size_t>(i)]; ++a) {
+      const Index j = field.neighbour(i, a);
       if (j < 0 || paired[static_cast<std::size_t>(j)]) continue;
       const double distance = std::hypot((sites.place.col(i) - sites.place.col(j)).norm(),
                                          (sites.anchor.col(i) - sites.anchor.col(j)).norm());

@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,26 @@ struct FieldShape {
   friend auto operator<=>(const FieldShape&, const FieldShape&) = default;
 };
 
+// The field about readings, and the weights by which it predicts each from its neighbours: whatever the readings are.
+class Kriging {
+ public:
+  struct Weights {
+    noise::Whitener whitener;
+    Eigen::VectorXd spread, log_spread;  // as in ReadingView
+  };
+
+  explicit Kriging(noise::Field field) : field_(std::move(field)) {}
+  Kriging(const Kriging&) = delete;  // whiteners refer to the field
+
+  const noise::Field& field() const { return field_; }
+  // `place`: 1000 log_ratio. Those that were asked for are kept as long as they take little memory.
+  std::shared_ptr<const Weights> weights(const FieldShape& shape, int place);
+
+ private:
+  noise::Field field_;
+  std::map<std::pair<FieldShape, int>, std::shared_ptr<const Weights>> kept_;
+};
+
 // Nugget of the empirical variogram: half the squared differences of adjacent readings, regressed on distance, at
 // distance zero. It estimates the variance of one reading for any field.
 struct CloseReadings {
@@ -50,6 +71,8 @@ class KrigedReadings {
   // Without winsorising. An outlier then affects its neighbours' predictions. Without outliers the errors have known
   // variance, while winsorised ones vary less than under a law with rare deep fades.
   KrigedReadings untamed() const;
+  // Other values of these readings, one each.
+  KrigedReadings with(Eigen::VectorXd residual) const;
   // A subsample of about this many readings, in evenly chosen cells: whole neighbourhoods keep their prediction
   // errors.
   KrigedReadings some(Eigen::Index about) const;
@@ -68,11 +91,11 @@ class KrigedReadings {
   CloseReadings close_readings() const;
 
  private:
-  KrigedReadings(Eigen::VectorXd residual, noise::Field field, noise::Family fitted, double far_off);
+  KrigedReadings(Eigen::VectorXd residual, std::shared_ptr<Kriging> kriging, noise::Family fitted, double far_off);
   Eigen::VectorXd error_by(const noise::Whitener& whitener) const;
 
   Eigen::VectorXd residual_;
-  noise::Field field_;
+  std::shared_ptr<Kriging> kriging_;
   noise::Family fitted_;
   std::vector<Eigen::Index> judged_;
   double far_off_;

@@ -28,11 +28,23 @@ KrigedReadings kriged(const LawSources& s, const VectorXd& residual) {
   return {s.readings, residual, as_drawn ? s.state.field().sites().stated : nullptr, fitted, s.state.time_unit()};
 }
 
+// The same readings off by something else: `field` is that of `residual`.
+KrigedReadings kriged_alike(const LawSources& s, const VectorXd& error, const VectorXd& residual,
+                            const KrigedReadings& field) {
+  std::vector<Index> finite;
+  for (Index i = 0; i < error.size(); ++i) {
+    if (std::isfinite(error[i]) != std::isfinite(residual[i])) return kriged(s, error);
+    if (std::isfinite(error[i])) finite.push_back(i);
+  }
+  return field.with(error(finite));
+}
+
 // Monte Carlo test: true if readings that the world itself draws, with the noise of these (`likeliest`), look as much
 // as by this law. Where nothing scatters single ones, the few that the field is sharpest at do: a field of waves bends
 // more than a normal one.
 bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, const ReadingDistribution& likeliest,
-                        const VectorXd& residual, const LawTest& law, const Diagnosis& found) {
+                        const VectorXd& residual, const KrigedReadings& about, const LawTest& law,
+                        const Diagnosis& found) {
   if (drawn_field(s.model).shadowing <= 0) return false;  // it draws nothing that bends
   auto laws = laws_of_causes(s);                          // the null of a law is every one that could replace another
   std::erase_if(laws, [&](const auto& one) { return one->id() != law.cause && !one->replaces(); });
@@ -41,7 +53,7 @@ bool scatters_by_itself(const LawSources& s, const ReadingDistribution& stated, 
     const Stream noise(combined(key_of("noise of a draw"), k));
     VectorXd error = residual.array().isFinite().select((draw.drawn - draw.expected)(s.used), std::nan("")).matrix();
     for (Index i = 0; i < error.size(); ++i) error[i] += likeliest.noise * noise.normal(static_cast<uint64_t>(i));
-    KrigedReadings field = kriged(s, error);
+    KrigedReadings field = kriged_alike(s, error, residual, about);
     const LawTests drawn =
         law_tests(field, found.receiver.step, laws, stated, s.state.fit.covariance, unsure(s, error));
     for (const LawTest& test : drawn.tests)
@@ -73,7 +85,7 @@ Scatter add_scatter(const LawSources& s, const ReadingDistribution& stated, cons
     return {likeliest, true};
   }
   const bool is_exact = std::sqrt(base_variance(stated)) < thresholds::least_stated_scatter;
-  if (is_exact && scatters_by_itself(s, stated, likeliest, residual, *best, found)) {
+  if (is_exact && scatters_by_itself(s, stated, likeliest, residual, field, *best, found)) {
     found.notes.push_back("readings look like " + best->cause +
                           ", but so do readings that the world itself draws without it: it is not named");
     return {likeliest, true};
