@@ -390,7 +390,7 @@ inline constexpr double closer_look_gain = 3;
 inline constexpr double averaged_choices = 5;
 // nats; by which adjacent readings may contradict a law; chosen;
 // FadingTests.CloseReadingsPreventAnotherLaw
-inline constexpr double contradiction_nats = 2;
+inline constexpr double contradiction_nats = 1.5;
 // nats; of a count of such pairs, beyond which it contradicts heavy tails: none where three are expected; chosen;
 // FadingTests.OutliersAreFoundUnderRayleighFading
 inline constexpr double far_contradiction_nats = 3;

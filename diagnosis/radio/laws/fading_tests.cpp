@@ -57,16 +57,12 @@ class Tests {
     for (const uint32_t n : averages) {
       if (const auto law = averaged_over(stated, n)) bases_.push_back(*law);
     }
-    starts_ = judge_.shapes(stated, fit);
-    const double most = std::max_element(starts_.begin(), starts_.end(), lower)->value;
-    starts_.erase(std::remove_if(starts_.begin(), starts_.end(),
-                                 [&](const Peak& p) { return p.value < most - thresholds::unlikely_shape_nats; }),
-                  starts_.end());
-    for (Peak& start : starts_) start = judge_.closer_distance(stated, start);
-    for (const ReadingDistribution& law : bases_) {
-      for (const Peak& start : starts_) take_for_null(law, judge_.best(law, start));
-    }
+    starts_ = likely(judge_.shapes(stated, fit), thresholds::unlikely_shape_nats);
+    take_bases_for_null();
     if (variance_of(stated, 0) < thresholds::steady_variance) add_noise();
+    if (null_law_.noise > 0) return;
+    for (Peak& start : starts_) start = judge_.closer_distance(stated, start);
+    take_bases_for_null();
   }
 
   Fitted fitted(const LawFamily& family) {
@@ -102,6 +98,7 @@ class Tests {
       best = narrowed(family, best, 0.3);
       const Fitted here = best;
       for (const ReadingDistribution& base : bases_) try_one(family, best, here.strength, base, here.peak);
+      best = with_its_noise(family, best);
       if (best.peak.value < before + no_more) break;
     }
     for (const ReadingDistribution& law : bases_) take_for_null(law, judge_.best_distance(law, best.peak));
@@ -150,6 +147,7 @@ class Tests {
     const double fall = thresholds::interval_nats * wider(*family.part.law);
     const auto value = [&](double x) {
       Fitted there{{}, best.base, best.law, x};
+      try_one(family, there, x, best.base, best.peak);
       for (const ReadingDistribution& base : bases_) {
         if (base.draws == best.base.draws) try_one(family, there, x, base, best.peak);
       }
@@ -162,7 +160,20 @@ class Tests {
   }
 
  private:
-  static bool lower(const Peak& a, const Peak& b) { return a.value < b.value; }
+  // Those at most that far behind the best.
+  static std::vector<Peak> likely(std::vector<Peak> peaks, double nats) {
+    const double most = std::max_element(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) {
+                          return a.value < b.value;
+                        })->value;
+    std::erase_if(peaks, [&](const Peak& p) { return p.value < most - nats; });
+    return peaks;
+  }
+
+  void take_bases_for_null() {
+    for (const ReadingDistribution& law : bases_) {
+      for (const Peak& start : starts_) take_for_null(law, judge_.best(law, start));
+    }
+  }
 
   // A few readings make up the variance of heavy tails, so that it says little. Where adjacent readings are seldom as
   // far apart as the law would have them, and as often as without it, its tails are the field's. Asked at the distance
@@ -195,7 +206,7 @@ class Tests {
     if (!(close > thresholds::steady_variance)) return;
     ReadingDistribution noisy = stated_;
     noisy.noise = std::sqrt(close);
-    std::vector<Peak> starts = judge_.shapes(noisy, fit_);
+    std::vector<Peak> starts = likely(judge_.shapes(noisy, fit_), thresholds::hopeless_shape_nats);
     Peak best;
     ReadingDistribution likeliest = noisy;
     for (const double factor : {0.35, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2}) {
@@ -213,6 +224,7 @@ class Tests {
     }
     starts_ = std::move(starts);
     for (Peak& start : starts_) start = judge_.best(likeliest, start);
+    starts_ = likely(std::move(starts_), thresholds::unlikely_shape_nats);
   }
 
   // Accepts the law and the field if they are jointly likelier.
@@ -231,6 +243,20 @@ class Tests {
       step /= 2;
       const Fitted here = best;
       for (const double by : {-step, step}) try_one(family, best, here.strength * std::exp(by), here.base, here.peak);
+    }
+    return best;
+  }
+
+  // Refines the noise beside the law: what is off by much is the rarer, the more scatters by itself.
+  Fitted with_its_noise(const LawFamily& family, Fitted best) {
+    if (best.base.noise == 0) return best;
+    for (const double step : {0.1, 0.05, 0.025}) {
+      const Fitted here = best;
+      for (const double by : {-step, step}) {
+        ReadingDistribution base = here.base;
+        base.noise *= std::exp(by);
+        try_one(family, best, here.strength, base, here.peak);
+      }
     }
     return best;
   }

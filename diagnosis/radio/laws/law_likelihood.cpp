@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "diagnosis/radio/thresholds.hpp"
@@ -29,11 +31,14 @@ double LawLikelihood::log_variance_of(ReadingDistribution law) const {
   return std::log(result);
 }
 
-ReadingDensities LawLikelihood::densities_of(const ReadingDistribution& law, double log_variance, const Peak& there,
-                                             double margin) {
+const ReadingDensities& LawLikelihood::densities_of(const ReadingDistribution& law, double log_variance,
+                                                    const Peak& there) {
+  constexpr std::size_t most = 200;  // laws; some 100 kB each
   const ReadingView& view = field_.view(there.shape, there.place);
-  const double size = log_variance - view.log_ratio;
-  return {law, step_, size + view.log_spread.minCoeff() - margin, size + view.log_spread.maxCoeff() + margin};
+  if (known_.size() >= most && !known_.contains(law)) known_.clear();
+  ReadingDensities& result = known_.try_emplace(law, law, step_).first->second;
+  result.reach(log_variance - view.log_ratio + view.log_spread.maxCoeff());
+  return result;
 }
 
 double LawLikelihood::at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
@@ -58,23 +63,36 @@ double LawLikelihood::at(const ReadingDensities& densities, double log_variance,
 }
 
 Peak LawLikelihood::best(const ReadingDistribution& law, Peak from) {
-  const double log_variance = log_variance_of(law);
   from.place = std::clamp(from.place, -farthest, farthest);
-  for (int way = 0;;) {
-    // Valid for two steps in either direction.
-    const ReadingDensities densities = densities_of(law, log_variance, from, 0.5);
-    const auto value = [&](int by) { return at(densities, log_variance, from.shape, from.place + by * places); };
-    const double here = value(0), below = value(-1), above = value(1);
-    const int better = std::max(below, above) <= here ? 0 : above > below ? 1 : -1;
-    if (better == 0 || better == -way || std::abs(from.place + better * places) > farthest) {
-      const double bend = 2 * here - below - above, slope = (above - below) / 2;
-      const bool top = bend > 0 && std::abs(slope) <= bend;  // within a step; on a slope it is unbounded
-      from.value = top ? here + slope * slope / (2 * bend) : here;
-      return from;
+  const int start = from.place;
+  const double log_variance = log_variance_of(law);
+  std::map<int, double> values;  // by steps from the start
+  const auto value = [&](int step) {
+    const int place = start + step * places;
+    if (std::abs(place) > farthest) return -std::numeric_limits<double>::infinity();
+    const auto [known, is_new] = values.try_emplace(step, 0);
+    if (is_new)
+      known->second = at(densities_of(law, log_variance, {0, from.shape, place}), log_variance, from.shape, place);
+    return known->second;
+  };
+  // Pattern search: after the second step uphill strides double, and then they halve.
+  int best = 0, stride = 1, way = 0, uphill = 0;
+  while (stride > 0) {
+    const bool on = uphill > 0;
+    const int next = best + (on ? way : value(best - stride) > value(best + stride) ? -1 : 1) * stride;
+    if (value(next) > value(best)) {
+      way = next > best ? 1 : -1;
+      best = next;
+      if (uphill >= 0 && ++uphill > 1) stride *= 2;
+    } else {
+      uphill = -1;
+      if (!on || stride > 1) stride /= 2;
     }
-    way = better;
-    from.place += way * places;
   }
+  const double here = value(best), below = value(best - 1), above = value(best + 1);
+  const double bend = 2 * here - below - above, slope = (above - below) / 2;
+  const bool top = std::isfinite(bend) && bend > 0;
+  return {top ? here + slope * slope / (2 * bend) : here, from.shape, start + best * places};
 }
 
 Peak LawLikelihood::best_distance(const ReadingDistribution& law, const Peak& from) {
@@ -91,18 +109,30 @@ Peak LawLikelihood::best_distance(const ReadingDistribution& law, const Peak& fr
   return best;
 }
 
-Peak LawLikelihood::closer_distance(const ReadingDistribution& law, Peak best) {
-  for (int by = distances / 2; by >= distances / 16; by /= 2) {
-    for (const int way : {-by, by}) {
-      Peak next = best;
-      next.shape.distance += way;
-      next = this->best(law, next);
-      if (next.value <= best.value) continue;
-      best = next;
-      break;
+Peak LawLikelihood::closer_distance(const ReadingDistribution& law, const Peak& from) {
+  constexpr int by = distances / 2, most = 8;  // steps; rounds
+  constexpr int finest = distances / 12;       // a fortieth: views at the same distances are computed once
+  const auto moved = [&](const Peak& peak, int way) {
+    Peak next = peak;
+    next.shape.distance += way;
+    return best(law, next);
+  };
+  Peak here = best(law, from), nearer = moved(here, -by), farther = moved(here, by);
+  for (int round = 0; round < most && std::max(nearer.value, farther.value) > here.value; ++round) {
+    if (nearer.value > farther.value) {
+      farther = std::exchange(here, nearer);
+      nearer = moved(here, -by);
+    } else {
+      nearer = std::exchange(here, farther);
+      farther = moved(here, by);
     }
   }
-  return best;
+  const double bend = 2 * here.value - nearer.value - farther.value, slope = (farther.value - nearer.value) / 2;
+  const double vertex = bend > std::abs(slope) ? by * slope / bend : 0;
+  const int steps = static_cast<int>(std::lround(vertex / finest));
+  if (steps == 0) return here;
+  const Peak there = moved(here, steps * finest);
+  return there.value > here.value ? there : here;
 }
 
 std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const noise::Covariance& from) {
@@ -129,12 +159,12 @@ std::vector<Peak> LawLikelihood::shapes_by_all(const ReadingDistribution& law, c
 
 double LawLikelihood::value(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = log_variance_of(law);
-  return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place);
+  return at(densities_of(law, log_variance, there), log_variance, there.shape, there.place);
 }
 
 Eigen::VectorXd LawLikelihood::each(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = log_variance_of(law);
-  const ReadingDensities densities = densities_of(law, log_variance, there, 0);
+  const ReadingDensities& densities = densities_of(law, log_variance, there);
   const ReadingView& view = field_.view(there.shape, there.place);
   const double size = log_variance - view.log_ratio;
   Eigen::VectorXd result = Eigen::VectorXd::Zero(field_.size());
@@ -145,7 +175,7 @@ Eigen::VectorXd LawLikelihood::each(const ReadingDistribution& law, const Peak& 
 double LawLikelihood::about(const ReadingDistribution& law, const Peak& there) {
   const double log_variance = log_variance_of(law);
   const Index every = static_cast<Index>(field_.judged().size()) / thresholds::rough_readings + 1;
-  return at(densities_of(law, log_variance, there, 0), log_variance, there.shape, there.place, every);
+  return at(densities_of(law, log_variance, there), log_variance, there.shape, there.place, every);
 }
 
 }  // namespace muster::diagnosis

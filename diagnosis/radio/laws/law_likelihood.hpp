@@ -1,6 +1,7 @@
 // Log-likelihood of single readings under a fading law, maximised over the shadowing covariance.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "diagnosis/radio/laws/kriging.hpp"
@@ -26,8 +27,8 @@ class LawLikelihood {
   Peak best(const ReadingDistribution& law, Peak from);
   // Maximises over size and decorrelation distance.
   Peak best_distance(const ReadingDistribution& law, const Peak& from);
-  // Refines the distance to a fiftieth, from a start.
-  Peak closer_distance(const ReadingDistribution& law, Peak from);
+  // The same to a fortieth of the distance, from a start near it: by a parabola between grid points.
+  Peak closer_distance(const ReadingDistribution& law, const Peak& from);
   // The maximum of each family, from a covariance. Many readings: first on a subsample, then on all for families that
   // remain possible.
   std::vector<Peak> shapes(const ReadingDistribution& law, const noise::Covariance& from);
@@ -49,10 +50,11 @@ class LawLikelihood {
   std::vector<Peak> shapes_by_all(const ReadingDistribution& law, const noise::Covariance& from);
   double at(const ReadingDensities& densities, double log_variance, const FieldShape& shape, int place,
             Eigen::Index every = 1);
-  ReadingDensities densities_of(const ReadingDistribution& law, double log_variance, const Peak& there, double margin);
+  const ReadingDensities& densities_of(const ReadingDistribution& law, double log_variance, const Peak& there);
 
   KrigedReadings& field_;
   double step_;
+  std::map<ReadingDistribution, ReadingDensities> known_;  // the laws that were asked for last
 };
 
 }  // namespace muster::diagnosis

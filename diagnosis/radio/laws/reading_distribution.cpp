@@ -40,7 +40,9 @@ std::vector<double> smeared(const std::vector<double>& table, const std::vector<
   return result;
 }
 
+// Of this variance, also where it is narrower than a bin.
 std::vector<double> normal_kernel(double variance, double bin) {
+  if (const double bins = variance / (bin * bin); bins < 0.5) return {bins / 2, 1 - bins, bins / 2};
   const auto reach = static_cast<std::ptrdiff_t>(4.5 * std::sqrt(variance) / bin) + 1;
   std::vector<double> kernel(static_cast<std::size_t>(2 * reach + 1));
   const auto middle = kernel.begin() + reach;
@@ -114,8 +116,7 @@ double variance_of(const ReadingDistribution& law, double step) {
   return result + law.noise * law.noise + step * step / 12;
 }
 
-ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, double lowest, double highest)
-    : lowest_(lowest), top_(std::max(1.0, std::ceil((highest - lowest) / log_factor))) {
+ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step) : variances_{0}, table_(bins, 0) {
   constexpr int finer = 2;  // bins of the law itself, before smoothing
   constexpr double fine = bin / finer;
   const BinGrid grid{first_db - bin / 2, fine, bins * finer};
@@ -124,23 +125,27 @@ ReadingDensities::ReadingDensities(const ReadingDistribution& law, double step, 
   if (step > 0) law_table = smeared(law_table, box_kernel(step, fine));
   double total = 0;
   for (const double v : law_table) total += v * bin / finer;
-  std::vector<double> level(bins, 0);
   for (std::size_t i = 0; i < law_table.size(); ++i) {  // shifted by its mean, split between two bins
     const double place = (grid.centre(i) - mean - first_db) / bin;
     if (!(place >= 0 && place < bins - 1)) continue;
     const auto b = static_cast<std::size_t>(place);
     const double along = place - static_cast<double>(b), mass = law_table[i] / finer / total;
-    level[b] += (1 - along) * mass;
-    level[b + 1] += along * mass;
+    table_[b] += (1 - along) * mass;
+    table_[b + 1] += along * mass;
   }
-  double variance = 0;
-  for (std::size_t l = 0; l <= static_cast<std::size_t>(top_); ++l) {
-    const double next = std::exp(lowest + log_factor * static_cast<double>(l));
-    level = smeared(level, normal_kernel(next - variance, bin));
-    variance = next;
-    variances_.push_back(next);
-    table_.insert(table_.end(), level.begin(), level.end());
-  }
+  add_level();
+}
+
+void ReadingDensities::add_level() {
+  const std::vector<double> last(table_.end() - bins, table_.end());
+  const double next = std::exp(lowest + log_factor * static_cast<double>(variances_.size() - 1));
+  const std::vector<double> level = smeared(last, normal_kernel(next - variances_.back(), bin));
+  variances_.push_back(next);
+  table_.insert(table_.end(), level.begin(), level.end());
+}
+
+void ReadingDensities::reach(double log_variance) {
+  while (std::log(variances_.back()) < std::min(log_variance, highest)) add_level();
 }
 
 ReadingsApart::ReadingsApart(const ReadingDistribution& law, double step, const Eigen::VectorXd& seen) {

@@ -34,7 +34,8 @@ TEST(ReadingDistribution, OnlyOutliersHaveHeavyTails) {
 
 TEST(ReadingDistribution, DensitiesHaveUnitMassAndTheStatedMoments) {
   const ReadingDistribution law = law_of({.rician_k = 5, .outliers = 0.02, .channel_sd = 3, .channels = 2});
-  const ReadingDensities densities(law, 1, std::log(0.3), std::log(20.0));
+  ReadingDensities densities(law, 1);
+  densities.reach(std::log(20.0));
   for (const double spread : {0.3, 1.1, 7.0, 20.0}) {
     double mass = 0, mean = 0, square = 0;
     for (double db = -60; db < 50; db += 0.05) {
@@ -102,7 +103,8 @@ TEST(FadingTests, TheLikelihoodIsTheSumOverReadings) {
 
 // Between two tabulated spreads the density is linear in the variance.
 TEST(ReadingDistribution, DensitiesAreInterpolatedInTheVariance) {
-  const ReadingDensities densities(law_of({.rician_k = 5}), 1, 0, 2);
+  ReadingDensities densities(law_of({.rician_k = 5}), 1);
+  densities.reach(2);
   const double low = std::exp(0.4), high = std::exp(0.8);  // tabulated, 0.4 apart
   for (const double db : {-12.0, -3.3, 0.0, 2.1, 9.0}) {
     const double at_low = densities.at(db, 0.4, low), at_high = densities.at(db, 0.8, high);
@@ -114,7 +116,27 @@ TEST(ReadingDistribution, DensitiesAreInterpolatedInTheVariance) {
                 std::log(densities.at(db, std::log(variance), std::exp(std::log(variance)))));
     }
   }
-  EXPECT_EQ(densities.at(0, -5, std::exp(-5.0)), densities.at(0, 0, 1));  // none is narrower than the narrowest
+}
+
+// A spread narrower than a bin is not lost in it, or a field would look a little smaller than it is.
+TEST(ReadingDistribution, NarrowSpreadsAddTheirVariance) {
+  for (const bool steady : {true, false}) {
+    const ReadingDistribution law = steady ? ReadingDistribution{} : law_of({.rician_k = 5});
+    ReadingDensities densities(law, steady ? 0 : 1);
+    densities.reach(1);
+    const auto variance = [&](double spread) {
+      double square = 0, mass = 0;
+      for (double db = -40; db < 40; db += 0.05) {
+        const double density = densities.at(db, std::log(spread), spread);
+        mass += density;
+        square += db * db * density;
+      }
+      return square / mass;
+    };
+    const double alone = variance(1e-9);
+    for (const double spread : {1e-4, 1e-3, 0.01, 0.02, 0.05, 0.2, 1.0})
+      EXPECT_NEAR(variance(spread) - alone, spread, 0.002 * spread + 1e-6) << spread;
+  }
 }
 
 // A subsample gives the start; the result is the best on all readings.
