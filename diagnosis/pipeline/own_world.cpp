@@ -38,8 +38,11 @@ std::ptrdiff_t numbers_of(const muster_plugin& plugin) {
 
 class Judge {
  public:
-  Judge(DiagnosisSetup& setup, const Diagnosis& found)
-      : s_(setup), found_(found), worlds_(setup, found.time_unit, found.levels) {}
+  Judge(DiagnosisSetup& setup, const Diagnosis& found, std::size_t readings)
+      : s_(setup), found_(found), worlds_(setup, found.time_unit, found.levels, readings) {}
+
+  // By these readings a hypothesis leads, and by more of them it may be named.
+  bool leaves_open() const { return leaves_open_; }
 
   OwnWorldVerdict verdict() {
     const Hypotheses hypotheses = hypotheses_of(s_, found_);
@@ -205,8 +208,12 @@ class Judge {
                  plain = best.levelled ? std::max(alone, levelled - price_of_levels()) : alone,
                  same_numbers = best.levelled ? levelled : alone;
     const double of_found = likelihood_of_found(as_it_is).nats, worth = of_found - price_of_found();
-    const double lead = best.evidence - (best.beside_found ? std::max(plain, worth) : plain);
-    if (lead < thresholds::own_world_nats || best.evidence - worth < thresholds::own_world_beyond_found) return;
+    const double lead = best.evidence - (best.beside_found ? std::max(plain, worth) : plain),
+                 beyond_found = best.evidence - worth;
+    if (lead < thresholds::own_world_nats || beyond_found < thresholds::own_world_beyond_found) {
+      leaves_open_ = std::min(lead, beyond_found) > thresholds::own_world_leads;
+      return;
+    }
     CauseEstimate result = stated(best.world.hypothesis, best.place_sd);
     result.evidence = lead;
     result.log_p = -lead;
@@ -230,12 +237,19 @@ class Judge {
   const Diagnosis& found_;
   OwnWorldFits worlds_;
   int tried_ = 0;  // hypotheses that change the expected levels
+  bool leaves_open_ = false;
 };
 
 }  // namespace
 
 OwnWorldVerdict judged_in_own_worlds(DiagnosisSetup& setup, const Diagnosis& found) {
-  return Judge(setup, found).verdict();
+  OwnWorldVerdict verdict;
+  for (const std::size_t readings : {thresholds::own_world_readings, thresholds::own_world_more_readings}) {
+    Judge judge(setup, found, readings);
+    verdict = judge.verdict();
+    if (!judge.leaves_open() || setup.used.rows.size() < 2 * readings) break;
+  }
+  return verdict;
 }
 
 }  // namespace muster::diagnosis

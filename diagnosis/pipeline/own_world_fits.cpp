@@ -11,7 +11,6 @@
 #include "diagnosis/inference/score/refine.hpp"
 #include "diagnosis/radio/links/drawn_term.hpp"
 #include "diagnosis/radio/links/measurement_geometry.hpp"
-#include "diagnosis/radio/thresholds.hpp"
 #include "muster/random.hpp"
 
 namespace muster::diagnosis {
@@ -46,8 +45,8 @@ VectorXd bounded_least_squares(const MatrixXd& design, VectorXd y, const VectorX
 
 // About so many of the readings of the search, fewer than twice as many, one at random of each stretch: each so manieth
 // would be of one link where links take turns.
-std::vector<Index> some_of(std::size_t all) {
-  const std::size_t every = std::max<std::size_t>(1, all / thresholds::own_world_readings);
+std::vector<Index> some_of(std::size_t all, std::size_t about) {
+  const std::size_t every = std::max<std::size_t>(1, all / about);
   const Stream any(key_of("readings of own worlds"));
   std::vector<Index> result;
   for (std::size_t first = 0; first + every <= all; first += every)
@@ -84,9 +83,9 @@ VectorXd centred(const VectorXd& values, const std::vector<std::size_t>& group) 
   return result;
 }
 
-OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit, const VectorXd& levels)
+OwnWorldFits::OwnWorldFits(DiagnosisSetup& setup, double time_unit, const VectorXd& levels, std::size_t readings)
     : s_(setup),
-      of_used_(some_of(s_.used.rows.size())),
+      of_used_(some_of(s_.used.rows.size(), readings)),
       kept_(those(s_.used.rows, of_used_)),
       all_(s_.model, kept_),
       scale_(scale_of(setup.model)),

@@ -15,6 +15,7 @@
 #include "diagnosis/pipeline/own_world_hypotheses.hpp"
 #include "diagnosis/radio/links/fewer_readings.hpp"
 #include "diagnosis/radio/links/link_rows.hpp"
+#include "diagnosis/radio/thresholds.hpp"
 
 namespace muster::diagnosis {
 
@@ -52,8 +53,10 @@ class OwnWorldFits {
  public:
   // The models are at the setup's fitted parameters as long as this lives, but while a world is fitted.
   // `time_unit`: of a diagnosis whose errors are correlated over time (Diagnosis::time_unit), s; else 0. `levels`: of
-  // the readings used, dBm; what was heard alone would be the stronger ones.
-  OwnWorldFits(DiagnosisSetup& setup, double time_unit, const Eigen::VectorXd& levels);
+  // the readings used, dBm; what was heard alone would be the stronger ones. `readings`: by about so many of them
+  // worlds are judged, fewer than twice as many.
+  OwnWorldFits(DiagnosisSetup& setup, double time_unit, const Eigen::VectorXd& levels,
+               std::size_t readings = thresholds::own_world_readings);
 
   const std::vector<Eigen::Index>& rows() const { return kept_; }   // of the table, of the readings
   const Eigen::VectorXd& measured() const { return y_; }            // dBm, there

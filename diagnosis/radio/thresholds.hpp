@@ -527,6 +527,9 @@ inline constexpr double own_world_near_move = 2;
 inline constexpr double own_world_far_move = 7;
 // readings; by which worlds are judged, one at random of each stretch; chosen; none
 inline constexpr std::size_t own_world_readings = 2000;
+// readings; the same, where those leave open what is likelier; chosen;
+// OwnWorld.MoreReadingsAreAskedWhereFewLeaveItOpen
+inline constexpr std::size_t own_world_more_readings = 8000;
 // readings; fewest by which worlds are judged; chosen; none
 inline constexpr std::size_t own_world_fewest = 60;
 // dB; largest change of an expected level by a hypothesis that changes nothing; chosen; none
@@ -551,6 +554,9 @@ inline constexpr double own_world_even = 2;
 inline constexpr double own_world_even_share = 0.03;
 // nats; by which a hypothesis must be likelier than what was found in the world as it is; chosen; none
 inline constexpr double own_world_beyond_found = 3;
+// nats; by which a hypothesis that is not named must lead for more readings to be asked; chosen;
+// OwnWorld.MoreReadingsAreAskedWhereFewLeaveItOpen
+inline constexpr double own_world_leads = 1;
 // nats; by which a hypothesis must be likelier than the world as it is; chosen; OwnWorld.CleanReadingsAreSilent
 inline constexpr double own_world_nats = 8;
 // factor; error at left-out places, over that beside all that was found in the world as it is, from which a hypothesis
