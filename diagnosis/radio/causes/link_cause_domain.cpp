@@ -113,9 +113,9 @@ std::size_t LinkCauseDomain::given_sizes(const CauseShape& shape) const {
 
 void LinkCauseDomain::bound_place(const CauseShape& shape, inference::Refinement& out) const {
   // A radio may lie outside the mapped and driven area.
-  const double around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? thresholds::beyond_map : 0;
+  const double scale = geometry_.scale,
+               around = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? scale * thresholds::beyond_map : 0;
   const Index places = place_entries(shape.place);
-  const double scale = shape.cause.meaning().kind == MUSTER_WORLD_EDIT ? 1 : geometry_.scale;
   if (places >= 2) {
     out.lower.segment(1, 2) << geometry_.east.low - around, geometry_.north.low - around;
     out.upper.segment(1, 2) << geometry_.east.high + around, geometry_.north.high + around;
@@ -171,7 +171,8 @@ bool LinkCauseDomain::admits(const CauseShape& shape, const inference::Candidate
   return !stands(c) || clear_of_ways(shape, geometry_, theta);
 }
 
-// Prior: a radio lies within a few metres of its mapped place, or, by a blunder, anywhere in the area. Displacements
+// Prior: a radio lies within a few metres of its mapped place, in the plan's scale, or, by a blunder, anywhere in the
+// area. Displacements
 // within the accuracy of map and mount are excluded. In a smooth field, millimetres that move links past the end of a
 // wall would be significant.
 void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candidate& c) const {
@@ -182,10 +183,10 @@ void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candida
     return (t.segment<2>(1) - mapped[static_cast<std::size_t>(t[0])]).norm();
   };
   const double area = std::max(geometry_.east.length() * geometry_.north.length(), 1.0),
-               share = thresholds::blunder_share;
-  const double anywhere = share / (1 - share) * 2 * M_PI * std::pow(thresholds::misplaced_spread, 2) / area;
-  c.refinement.belief = [moved, anywhere](const VectorXd& t) {
-    const double near = std::exp(-std::pow(moved(t) / thresholds::misplaced_spread, 2) / 2);
+               share = thresholds::blunder_share, spread = geometry_.scale * thresholds::misplaced_spread;
+  const double anywhere = share / (1 - share) * 2 * M_PI * std::pow(spread, 2) / area;
+  c.refinement.belief = [moved, anywhere, spread](const VectorXd& t) {
+    const double near = std::exp(-std::pow(moved(t) / spread, 2) / 2);
     return std::log((near + anywhere) / (1 + anywhere));
   };
   c.refinement.admitted = [moved](const VectorXd& t) { return moved(t) < thresholds::same_place ? 0.0 : 1.0; };

@@ -40,17 +40,17 @@ std::vector<VectorXd> places_over(PlaceShape shape, const MeasurementGeometry& s
 // Places around each radio's mapped place, and far ones over the whole area.
 std::vector<VectorXd> around_radios(const CauseShape& shape, const MeasurementGeometry& survey,
                                     const LinkModel& model) {
-  constexpr double around = 5;
+  const double around = 5 * survey.scale;
   const double area = survey.east.length() * survey.north.length();
   const double spacing =
-      std::max(2.0, std::sqrt(area * static_cast<double>(shape.rows.size()) / thresholds::far_places));
+      std::max(2 * survey.scale, std::sqrt(area * static_cast<double>(shape.rows.size()) / thresholds::far_places));
   std::vector<VectorXd> result;
   for (std::size_t row = 0; row < shape.rows.size(); ++row) {
     const auto at = place_of_radio(model, shape.rows[row].at(0));
     if (!at) continue;
-    for (const double r : {0.25, 0.6, 1.5, 3.0, around}) {
+    for (const double share : {0.05, 0.12, 0.3, 0.6, 1.0}) {
       for (int k = 0; k < 8; ++k) {
-        const double angle = (k + (r == 1.5 || r == 5.0 ? 0.5 : 0)) * pi / 4;
+        const double r = share * around, angle = (k + (share == 0.3 || share == 1.0 ? 0.5 : 0)) * pi / 4;
         result.push_back(
             theta_of(row, Eigen::Vector2d(at->x() + r * std::cos(angle), at->y() + r * std::sin(angle)), {}));
       }

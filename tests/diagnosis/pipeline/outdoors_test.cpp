@@ -103,6 +103,17 @@ TEST(Outdoors, AHillIsFound) { expect_found({150, 100, 22, 14}, 32); }
 
 TEST(Outdoors, AWoodIsFoundThatWasDrivenThrough) { expect_found({170, 110, 45, 12}, 0); }
 
+// To the north-east of where it is listed: a pattern that favours that side would do in part.
+TEST(Outdoors, ARadioIsFoundThatStandsSeventyMetresOff) {
+  const Diagnosis found = driven_with("<effect.tx_misplaced radio=\"south\" x=\"215\" y=\"25\"/>");
+  ASSERT_FALSE(found.causes.empty());
+  const CauseEstimate& moved = found.causes[0];
+  EXPECT_EQ(moved.id, "effect.tx_misplaced");
+  EXPECT_EQ(moved.label, "radio/south");
+  EXPECT_NEAR(value_of(moved, "x"), 215, 6);
+  EXPECT_NEAR(value_of(moved, "y"), 25, 6);
+}
+
 TEST(Outdoors, APlanIsFoundThatIsShiftedByAHundredMetres) {
   const Diagnosis found = driven_with("", 0, {80, -60});
   ASSERT_FALSE(found.causes.empty());
