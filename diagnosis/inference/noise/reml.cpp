@@ -16,17 +16,21 @@ PriorTerm on_share(const Covariance& c, const Prior& p) {
   return {c.theta[3] - p.logit_shared, 1 / (p.shared_spread * p.shared_spread)};
 }
 
+double nats_of(const PriorTerm& term) { return 0.5 * term.precision * term.offset * term.offset; }
+
 }  // namespace
+
+double prior_nats(const Covariance& covariance, const Prior& prior) {
+  return nats_of(on_distance(covariance, prior)) + nats_of(on_share(covariance, prior));
+}
 
 Whitened whitened(const Whitener& whitener, const Eigen::VectorXd& y, const Eigen::MatrixXd& design,
                   const Prior& prior) {
   const Eigen::MatrixXd both = whitener(hstack(design, y));
   Whitened result{basis_of(both.leftCols(design.cols())), both.rightCols(1), {}, 0};
   result.residual = result.basis.rest(result.y);
-  const PriorTerm distance = on_distance(whitener.covariance(), prior), share = on_share(whitener.covariance(), prior);
   result.value = -whitener.log_scale() + 0.5 * result.residual.squaredNorm() + result.basis.log_determinant() +
-                 0.5 * distance.precision * distance.offset * distance.offset +
-                 0.5 * share.precision * share.offset * share.offset;
+                 prior_nats(whitener.covariance(), prior);
   return result;
 }
 

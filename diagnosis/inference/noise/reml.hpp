@@ -25,6 +25,9 @@ struct Prior {
   double log_long() const { return (log_decorrelation + usual_range + log_longest) / 2; }  // a long field, ln m
 };
 
+// What the prior adds to the objective.
+double prior_nats(const Covariance& covariance, const Prior& prior);
+
 struct Objective {
   double value = 0;
   Theta gradient = Theta::Zero();

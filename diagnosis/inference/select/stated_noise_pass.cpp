@@ -28,13 +28,16 @@ std::vector<noise::Fit> fitted_as_stated(const ModelState& state, const Eigen::V
   return fits;
 }
 
-// Nats by which the stated field, with the lead in the model, is behind the best one.
+// Nats by which the stated field, with the lead in the model, is behind the best one, by the readings alone: the prior
+// of a field that nobody states would charge it for its distance.
 double nats_behind(const ModelState& state, const Eigen::VectorXd& y, const Eigen::MatrixXd& both,
                    const noise::Fit& stated) {
+  const noise::Prior& prior = state.options().prior;
+  const auto by_readings = [&](const noise::Fit& fit) { return fit.value - prior_nats(fit.covariance, prior); };
   const auto value_from = [&](const noise::Covariance& start) {
-    return noise::fit(state.field(), y, both, state.options().prior, start, 6).value;
+    return by_readings(noise::fit(state.field(), y, both, prior, start, 6));
   };
-  return stated.value - std::min(value_from(state.fit.covariance), value_from(stated.covariance));
+  return by_readings(stated) - std::min(value_from(state.fit.covariance), value_from(stated.covariance));
 }
 
 // Where nothing blurs the readings, a few waves are smoother than their covariance says, and the likelihood, which
