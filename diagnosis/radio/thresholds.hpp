@@ -235,9 +235,10 @@ inline constexpr double much_more = 1.5;
 inline constexpr Eigen::Index worth_sketching = 2;
 // readings; from which columns near a place are computed apart; chosen; none
 inline constexpr Eigen::Index worth_localising = 4000;
-// m; beyond the map within which a radio is sought; chosen; none
+// m; beyond the map within which a radio is sought, times the plan's scale; chosen; none
 inline constexpr double beyond_map = 10;
-// m; standard deviation of a radio's place about the map's; chosen; none
+// m; standard deviation of a radio's place about the map's, times the plan's scale; chosen;
+// Outdoors.ARadioIsFoundThatStandsSeventyMetresOff
 inline constexpr double misplaced_spread = 3;
 // share; of misplaced radios, of those that stand anywhere in the area and not near the map's place; chosen;
 // Candidates.ARadioMayStandFarFromItsMappedPlace
@@ -282,6 +283,12 @@ inline constexpr double pairs_alpha = 1e-4;
 // factor; of pairs by chance, beyond which readings that need a law come in runs; chosen;
 // Survey.ReadingsThatAreOffInRunsAreNoOutliers
 inline constexpr double pairs_of_runs = 4;
+// share; of the largest lambda that is left unexplained, below which a law of single readings is not named beside it;
+// chosen; LawDoubts.WhatIsNotExplainedScattersReadings
+inline constexpr double law_beside_unexplained = 0.25;
+// share; of the readings that need a law, beyond which pairs of them must be more than chance has; chosen;
+// Survey.ReadingsThatAreOffInRunsAreNoOutliers
+inline constexpr double pairs_of_need = 0.1;
 // share; of readings of a link that need a law and are called alike; chosen; none
 inline constexpr double alike_share = 0.25;
 // factor; of that share, beyond which pairs of successive readings are what lasts; chosen;
@@ -335,6 +342,12 @@ inline constexpr double beyond_drawn = 1.5;
 inline constexpr double widest_field = 2;
 // draws; of the world, over which a fitted field scatters; chosen; none
 inline constexpr int field_draws = 12;
+// share; of the ground that a link covers, over which a field that is told is not alike; chosen;
+// LawDoubts.AFieldAsLongAsTheGroundIsNone
+inline constexpr double field_of_the_ground = 1.0 / 3;
+// factor; of the stated distance, up to which a field may be as long as the ground; chosen;
+// LawDoubts.AFieldAsLongAsTheGroundIsNone
+inline constexpr double much_longer_field = 2;
 // probability; of the fitted field among those of the world's draws, below which it is another; chosen; none
 inline constexpr double alike_field = 0.01;
 // share; of the readings, which the world's receiver must hear of a draw for its field to be compared; chosen; none
@@ -401,7 +414,8 @@ inline constexpr double far_most = 60;
 inline constexpr double far_in_tails = 0.7;
 // nats; fall of the log-likelihood at the ends of a 95 % interval; derived; FadingTests.MeasuresAnotherFading
 inline constexpr double interval_nats = 1.92;
-// nats; behind the best shape beyond which a shape of the sample is not fitted to all readings; chosen;
+// nats; behind the best shape beyond which a shape of the sample is not fitted to all readings, nor one of the first
+// size of the noise to other sizes; chosen;
 // FadingTests.ShapesOfASubsetAreRankedByAllReadings
 inline constexpr double hopeless_shape_nats = 60;
 // readings; from which shapes are fitted to a sample first; chosen; none
@@ -552,6 +566,8 @@ inline constexpr double own_world_reach = 20;
 inline constexpr double own_world_even = 2;
 // share; of the lead over the given world, for the same; chosen; none
 inline constexpr double own_world_even_share = 0.03;
+// nats; by which another family of the noise may favour a hypothesis over the world as it is; chosen; none
+inline constexpr double own_world_other_noise = 20;
 // nats; by which a hypothesis must be likelier than what was found in the world as it is; chosen; none
 inline constexpr double own_world_beyond_found = 3;
 // nats; by which a hypothesis that is not named must lead for more readings to be asked; chosen;

@@ -6,6 +6,8 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "diagnosis/inference/state/null_tail.hpp"
 #include "diagnosis/radio/laws/law_families.hpp"
@@ -26,6 +28,7 @@ constexpr std::array<uint32_t, 5> averages{1, 2, 3, 4, 6};  // fades in one read
 double wider(const ReadingLaw& law) {
   return law.replaces() ? thresholds::fading_dispersion : thresholds::other_law_dispersion;
 }
+constexpr std::array<double, 3> noise_steps{0.1, 0.05, 0.025};        // of its logarithm
 const double averaged_cost = std::log(thresholds::averaged_choices);  // nats: the stated law is of single fades
 
 double cost_of(const ReadingDistribution& law) { return law.draws > 1 ? averaged_cost : 0; }
@@ -102,6 +105,10 @@ class Tests {
       if (best.peak.value < before + no_more) break;
     }
     for (const ReadingDistribution& law : bases_) take_for_null(law, judge_.best_distance(law, best.peak));
+    if (best.base.noise > 0) {
+      const auto [law, peak] = with_likeliest_noise(best.base, judge_.best_distance(best.base, best.peak));
+      take_for_null(law, peak);
+    }
     return best;
   }
 
@@ -151,7 +158,7 @@ class Tests {
       for (const ReadingDistribution& base : bases_) {
         if (base.draws == best.base.draws) try_one(family, there, x, base, best.peak);
       }
-      return there.peak.value;
+      return with_its_noise(family, there).peak.value;
     };
     const double least = best.peak.value - fall;
     const double a = family.reported(crossing(value, best.strength, best.strength / 3, least));
@@ -197,8 +204,8 @@ class Tests {
     if (peak.value > null_.value) null_ = peak, null_law_ = law;
   }
 
-  // Another null: the stated law with normal noise, of the size that differences of adjacent readings say and near it;
-  // without such readings of the size that was fitted to rows.
+  // Another null: the stated law with normal noise, of the likeliest size: sought about the one that differences of
+  // adjacent readings say, or without such readings the one that was fitted to rows.
   void add_noise() {
     const CloseReadings told = judge_.field().close_readings();
     const double close = std::isfinite(told.standard_error) ? told.variance - judge_.step() * judge_.step() / 12
@@ -206,7 +213,7 @@ class Tests {
     if (!(close > thresholds::steady_variance)) return;
     ReadingDistribution noisy = stated_;
     noisy.noise = std::sqrt(close);
-    std::vector<Peak> starts = likely(judge_.shapes(noisy, fit_), thresholds::hopeless_shape_nats);
+    const std::vector<Peak> starts = likely(judge_.shapes(noisy, fit_), thresholds::hopeless_shape_nats);
     Peak best;
     ReadingDistribution likeliest = noisy;
     for (const double factor : {0.35, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.5, 1.8, 2.2}) {
@@ -216,15 +223,34 @@ class Tests {
         if (peak.value > best.value) best = peak, likeliest = noisy;
       }
     }
+    std::tie(likeliest, best) = with_likeliest_noise(likeliest, best);
     take_for_null(likeliest, best);
     if (null_law_.noise == 0) return;
     for (const double less : {0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {  // what is added takes a part of the noise
       bases_.push_back(likeliest);
       bases_.back().noise *= less;
     }
-    starts_ = std::move(starts);
-    for (Peak& start : starts_) start = judge_.best(likeliest, start);
+    starts_ = judge_.shapes(likeliest, fit_);
+    for (const Peak& start : starts_) take_for_null(likeliest, start);
     starts_ = likely(std::move(starts_), thresholds::unlikely_shape_nats);
+  }
+
+  // A law's normal noise between the sizes that were tried and beyond them, with the field refitted. A law that is
+  // tested has its noise refined, too, and what it gained by that alone would be false.
+  std::pair<ReadingDistribution, Peak> with_likeliest_noise(ReadingDistribution law, Peak peak) {
+    constexpr double no_more = 0.01;  // nats
+    for (const double step : noise_steps) {
+      for (const double by : {-step, step}) {
+        for (bool gains = true; gains;) {
+          ReadingDistribution next = law;
+          next.noise *= std::exp(by);
+          const Peak there = judge_.best(next, peak);
+          gains = there.value > peak.value + no_more;
+          if (gains) law = next, peak = there;
+        }
+      }
+    }
+    return {law, peak};
   }
 
   // Accepts the law and the field if they are jointly likelier.
@@ -250,7 +276,7 @@ class Tests {
   // Refines the noise beside the law: what is off by much is the rarer, the more scatters by itself.
   Fitted with_its_noise(const LawFamily& family, Fitted best) {
     if (best.base.noise == 0) return best;
-    for (const double step : {0.1, 0.05, 0.025}) {
+    for (const double step : noise_steps) {
       const Fitted here = best;
       for (const double by : {-step, step}) {
         ReadingDistribution base = here.base;

@@ -41,7 +41,7 @@ class Kriging {
   Kriging(const Kriging&) = delete;  // whiteners refer to the field
 
   const noise::Field& field() const { return field_; }
-  // `place`: 1000 log_ratio. Those that were asked for are kept as long as they take little memory.
+  // `place`: 1000 log_ratio. Those that were asked for are kept up to 256 MB.
   std::shared_ptr<const Weights> weights(const FieldShape& shape, int place);
 
  private:

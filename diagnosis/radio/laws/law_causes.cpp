@@ -149,6 +149,11 @@ void add_field(const LawSources& s, KrigedReadings& field, const ReadingDistribu
   if (!beyond_chance(test, thresholds::field_alpha) || test.evidence < thresholds::least_field ||
       test.values[0].value > thresholds::widest_field * found.residual_sd || world_draws_alike(s, found))
     return;
+  if (std::string doubt = doubt_of_extent(s.readings, {test.values[0].value, test.values[1].value}, said);
+      !doubt.empty()) {
+    found.notes.push_back(std::move(doubt));
+    return;
+  }
   CauseEstimate& named = add_named(s, causes, test, found);
   named.doubt = doubt_of_field(found, named);
 }

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -48,14 +50,17 @@ double beside_walls(const LawSources& s, const VectorXd& residual, const LawTest
 struct Successive {
   int pairs = 0, alike = 0;
   double by_chance = 0;  // pairs in another order of each link's readings
+  double needing = 0;    // readings
 
   // What lasts makes more pairs than chance: several times as many where it is rare, and nearly all alike, unless the
   // field follows it in part. A level that is a little off makes more of them, too, where a law no longer fits so well,
-  // but not many more, and none more alike than a quarter of them.
+  // but not many more, and none more alike than a quarter of them. One patch of the field beside many readings that are
+  // off one by one makes no runs of these.
   bool in_runs() const {
+    const bool many =
+        pairs > thresholds::pairs_of_runs * by_chance && pairs - by_chance > thresholds::pairs_of_need * needing;
     return pairs > 0 && poisson_tail(by_chance, pairs) < thresholds::pairs_alpha &&
-           (pairs > thresholds::pairs_of_runs * by_chance ||
-            alike > thresholds::lasting * thresholds::alike_share * pairs);
+           (many || alike > thresholds::lasting * thresholds::alike_share * pairs);
   }
 };
 
@@ -98,6 +103,7 @@ Successive successive(const LawSources& s, const VectorXd& residual, const LawTe
     if (link.off.empty()) continue;
     const auto needing = static_cast<double>(link.off.size());
     const double alike = alike_below(link.off);
+    result.needing += needing;
     result.by_chance += needing * (needing - 1) / link.readings;
     result.pairs += static_cast<int>(link.steps.size());
     result.alike += static_cast<int>(
@@ -204,6 +210,25 @@ double fades_in_field(const LawSources& s) {
   return s.state.time_unit() == 0 && distance < thresholds::fades_in_field * apart ? distance : 0;
 }
 
+// m, the longest side of the ground that an end of a link covers.
+double longest_ground(const LinkReadings& r) {
+  struct Box {
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  };
+  std::map<std::pair<int, int>, std::array<Box, 2>> links;
+  for (Index i = 0; i < r.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    auto& [tx, rx] = links[{r.tx[k], r.rx[k]}];
+    tx = {tx.low.cwiseMin(r.tx_at.col(i)), tx.high.cwiseMax(r.tx_at.col(i))};
+    rx = {rx.low.cwiseMin(r.rx_at.col(i)), rx.high.cwiseMax(r.rx_at.col(i))};
+  }
+  double longest = 0;
+  for (const auto& [ends, boxes] : links) {
+    for (const Box& box : boxes) longest = std::max(longest, (box.high - box.low).maxCoeff());
+  }
+  return longest;
+}
+
 std::string in_words(const ScatterByLevel& scatter) {
   return fmt::format("single readings scatter by {:.1f} dB where levels are low and by {:.1f} dB where they are high",
                      scatter.weak, scatter.strong);
@@ -222,6 +247,7 @@ std::vector<bool> unsure(const LawSources& s, const VectorXd& residual) {
 
 std::string doubt_of(const LawSources& s, const VectorXd& residual, const KrigedReadings& field, const Diagnosis& found,
                      const LawTest& law) {
+  if (std::string doubt = doubt_beside_unexplained(found, law); !doubt.empty()) return doubt;
   if (replaces(s, law.cause)) {
     if (may_wander(s))
       return "single readings of links that stand scatter as by " + law.cause +
@@ -257,6 +283,28 @@ std::string doubt_of(const LawSources& s, const VectorXd& residual, const Kriged
         "is none of single readings, and it is not named",
         law.cause, off.pairs, off.by_chance);
   return "";
+}
+
+std::string doubt_of_extent(const LinkReadings& readings, const noise::StatedField& fitted,
+                            const noise::StatedField& said) {
+  const double ground = longest_ground(readings);
+  if (fitted.decorrelation < thresholds::field_of_the_ground * ground ||
+      fitted.decorrelation < thresholds::much_longer_field * said.decorrelation)
+    return "";
+  return fmt::format(
+      "levels are off alike over {:.2g} m of the {:.2g} m that a link covers: a plan in a wrong scale, another law of "
+      "distance or a map that is off as a whole does that, too, and another shadowing is not named",
+      fitted.decorrelation, ground);
+}
+
+std::string doubt_beside_unexplained(const Diagnosis& found, const LawTest& law) {
+  double most = 0;
+  for (const Unexplained& each : found.unexplained) most = std::max(most, each.lambda);
+  if (law.gain >= thresholds::law_beside_unexplained * most) return "";
+  return fmt::format(
+      "single readings scatter as by {} (lambda {:.0f}) beside what is not explained (lambda {:.0f}): where that "
+      "changes at once a smooth leaves a part of it, and the law is not named",
+      law.cause, law.gain, most);
 }
 
 std::string doubt_by_level(const LawSources& s, const VectorXd& residual, const KrigedReadings& field,

@@ -1,6 +1,7 @@
 #include "diagnosis/radio/laws/law_likelihood.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -130,9 +131,8 @@ Peak LawLikelihood::closer_distance(const ReadingDistribution& law, const Peak& 
   const double bend = 2 * here.value - nearer.value - farther.value, slope = (farther.value - nearer.value) / 2;
   const double vertex = bend > std::abs(slope) ? by * slope / bend : 0;
   const int steps = static_cast<int>(std::lround(vertex / finest));
-  if (steps == 0) return here;
-  const Peak there = moved(here, steps * finest);
-  return there.value > here.value ? there : here;
+  std::array<Peak, 4> tried{here, nearer, farther, steps == 0 ? here : moved(here, steps * finest)};
+  return *std::max_element(tried.begin(), tried.end(), [](const Peak& a, const Peak& b) { return a.value < b.value; });
 }
 
 std::vector<Peak> LawLikelihood::shapes(const ReadingDistribution& law, const noise::Covariance& from) {

@@ -13,7 +13,7 @@ namespace muster::diagnosis {
 struct Peak {
   double value = -1e300;
   FieldShape shape;
-  int place = 0;  // of ReadingField
+  int place = 0;  // of KrigedReadings
 };
 
 class LawLikelihood {
@@ -54,7 +54,7 @@ class LawLikelihood {
 
   KrigedReadings& field_;
   double step_;
-  std::map<ReadingDistribution, ReadingDensities> known_;  // the laws that were asked for last
+  std::map<ReadingDistribution, ReadingDensities> known_;  // laws that were asked for, until they are too many
 };
 
 }  // namespace muster::diagnosis

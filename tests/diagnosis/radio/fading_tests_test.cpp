@@ -74,6 +74,17 @@ TEST(FadingTests, NormalNoiseOfAWorldThatStatesNoneIsNoLaw) {
   EXPECT_NEAR(fading.values[0].value, 5, 1.5);
 }
 
+// The null's noise is refined as that beside a law is: between the sizes that are tried a law gained 2.8 at 3.6 dB.
+TEST(FadingTests, NormalNoiseBetweenTheSizesThatAreTriedIsNoLaw) {
+  for (const double noise : {1.25, 3.6}) {
+    const Walk walk = drawn_of_four({.rician_k = 60, .noise = noise}, 2000, 1.5);
+    KrigedReadings field(walk.readings, walk.residual);
+    const LawTests result = law_tests(field, 1, shipped_laws, law_of({.rician_k = 60}), near_the_truth);
+    EXPECT_NEAR(result.stated.noise, noise, 0.05);
+    for (const LawTest& test : result.tests) EXPECT_LT(test.gain, 2) << test.cause << ", noise " << noise;
+  }
+}
+
 TEST(FadingTests, FieldSizeIsIndependentOfTheStart) {
   const ReadingDistribution law = law_of({.rician_k = 6});
   const Walk walk = drawn({.rician_k = 6}, 2000);

@@ -53,5 +53,36 @@ TEST(LawDoubts, AFieldOfLittleEvidenceMayHaveAnotherLawOfDistance) {
   EXPECT_EQ(doubt_of_field(Diagnosis(), field_of(60)), "");
 }
 
+// A plan of stations in feet: readings of some 76 m by 54 m were in a field that is alike over 36 m.
+TEST(LawDoubts, AFieldAsLongAsTheGroundIsNone) {
+  LinkReadings r;
+  r.tx_at = Eigen::Matrix3Xd::Zero(3, 40);
+  r.rx_at = Eigen::Matrix3Xd::Zero(3, 40);
+  for (int i = 0; i < 40; ++i) {
+    r.tx.push_back(i % 2);
+    r.rx.push_back(5);
+    r.tx_at.col(i) << 240 * (i % 2), 0, 3;  // stations cover nothing
+    r.rx_at.col(i) << 76.0 * i / 39, 54.0 * (i % 4) / 3, 1;
+  }
+  const noise::StatedField stated{2.5, 5};
+  EXPECT_NE(doubt_of_extent(r, {7.8, 36}, stated).find("over 36 m of the 74 m that a link covers"), std::string::npos)
+      << doubt_of_extent(r, {7.8, 36}, stated);
+  EXPECT_EQ(doubt_of_extent(r, {7.8, 20}, stated), "");
+  EXPECT_EQ(doubt_of_extent(r, {7.8, 36}, {2.5, 20}), "");  // the world says nearly as much
+}
+
+// A station that was carried elsewhere half way left outliers of lambda 44 beside "depends on time" of lambda 506.
+TEST(LawDoubts, WhatIsNotExplainedScattersReadings) {
+  LawTest law;
+  law.cause = "effect.outliers";
+  law.gain = 44;
+  Diagnosis found;
+  EXPECT_EQ(doubt_beside_unexplained(found, law), "");
+  found.unexplained = {{"time", 50, 126, {}}, {"time_per_tx", 232, 506, {}}};
+  EXPECT_NE(doubt_beside_unexplained(found, law).find("effect.outliers (lambda 44)"), std::string::npos);
+  law.gain = 243;
+  EXPECT_EQ(doubt_beside_unexplained(found, law), "");
+}
+
 }  // namespace
 }  // namespace muster::diagnosis
