@@ -119,25 +119,32 @@ class Judge {
     return result;
   }
 
+  // Of a world whose numbers and choices cost as much: by all families of the noise where it may be named or told
+  // beside the one that is.
+  Likelihood likelihood_of(const OwnWorld& world, double prices) const {
+    return worlds_.likelihood_of(world, as_it_is_.noise, worth_a_look_ + prices - thresholds::own_world_other_noise);
+  }
+
   Judged judged(const OwnWorld& given, const OwnWorld& as_it_is) {
     Judged result{given};
-    Likelihood likelihood = worlds_.likelihood_of(given);
+    const double sought = choice() + price(given.hypothesis.sought());
+    Likelihood likelihood = likelihood_of(given, sought);
     if (given.hypothesis.place) {
       OwnWorld settled = given;
       const InPlan sd = worlds_.settle(settled, likelihood.noise);
       result.place_sd = sd;
-      const Likelihood there = worlds_.likelihood_of(settled);
+      const Likelihood there = likelihood_of(settled, sought);
       if (there.nats > likelihood.nats) {
         result.world = settled;
         likelihood = there;
       }
     }
     result.nats = likelihood.nats;
-    result.evidence = likelihood.nats - choice() - price(given.hypothesis.sought());
+    result.evidence = likelihood.nats - sought;
     // Only where it explains more of what levels leave: a likelihood costs.
     if (worlds_.may_level() && given.levelled / as_it_is.levelled < given.squares / as_it_is.squares) {
-      const double nats = worlds_.likelihood_of(worlds_.with_levels(result.world)).nats,
-                   evidence = nats - choice() - price(given.hypothesis.sought()) - price_of_levels();
+      const double prices = sought + price_of_levels(),
+                   nats = likelihood_of(worlds_.with_levels(result.world), prices).nats, evidence = nats - prices;
       if (evidence > result.evidence) {
         result.nats = nats;
         result.evidence = evidence;
@@ -149,8 +156,7 @@ class Judge {
     OwnWorld both = result.world;
     both.design.conservativeResize(Eigen::NoChange, both.design.cols() + 1);
     both.design.rightCols(1) = effect_of_found();
-    const double nats = worlds_.likelihood_of(both).nats;
-    const double evidence = nats - choice() - price(given.hypothesis.sought()) - price_of_found();
+    const double prices = sought + price_of_found(), nats = likelihood_of(both, prices).nats, evidence = nats - prices;
     if (evidence <= result.evidence) return result;
     result.nats = nats;
     result.evidence = evidence;
@@ -185,16 +191,27 @@ class Judge {
     return worlds_.likelihood_of(with_them);
   }
 
+  // nats, behind a lead, that the readings do not tell: what else is wrong with the world is in no hypothesis yet, so
+  // that small shares of the lead say little.
+  static double even_with(double lead) {
+    return std::max(thresholds::own_world_even, thresholds::own_world_even_share * lead);
+  }
+
   void name_likeliest(const OwnWorld& as_it_is, const std::vector<OwnWorld>& worlds, OwnWorldVerdict& out) {
-    const double alone = worlds_.likelihood_of(as_it_is).nats;
+    as_it_is_ = worlds_.likelihood_of(as_it_is);
+    const double alone = as_it_is_.nats;
+    worth_a_look_ = alone + thresholds::own_world_nats;
     std::vector<Judged> all;
-    for (const OwnWorld& world : worlds) all.push_back(judged(world, as_it_is));
+    for (const OwnWorld& world : worlds) {
+      all.push_back(judged(world, as_it_is));
+      const double most = all.back().evidence;
+      worth_a_look_ = std::max(worth_a_look_, most - std::max(thresholds::own_world_open, even_with(most - alone)));
+    }
     const double most = std::max_element(all.begin(), all.end(), [](const Judged& a, const Judged& b) {
                           return a.evidence < b.evidence;
                         })->evidence;
-    // Of those that the readings do not tell apart the simplest. What else is wrong with the world is in no hypothesis
-    // yet, so that small shares of the lead say little.
-    const double even = std::max(thresholds::own_world_even, thresholds::own_world_even_share * (most - alone));
+    // Of those that the readings do not tell apart the simplest.
+    const double even = even_with(most - alone);
     const auto simpler = [&](const Judged& a, const Judged& b) {
       const auto rank = [&](const Judged& j) {
         return std::tuple(j.evidence < most - even, j.world.hypothesis.cause->needs_own_world(),
@@ -237,6 +254,8 @@ class Judge {
   const Diagnosis& found_;
   OwnWorldFits worlds_;
   int tried_ = 0;  // hypotheses that change the expected levels
+  Likelihood as_it_is_;
+  double worth_a_look_ = 0;  // nats, from which the evidence of a hypothesis matters
   bool leaves_open_ = false;
 };
 

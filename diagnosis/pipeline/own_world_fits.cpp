@@ -268,6 +268,13 @@ Likelihood OwnWorldFits::likelihood_of(const OwnWorld& world) const {
   return {fit.log_likelihood(), fit.covariance};
 }
 
+Likelihood OwnWorldFits::likelihood_of(const OwnWorld& world, const noise::Covariance& like, double least) const {
+  const auto& [rows, field] = rows_of(world);
+  const noise::Fit fit = noise::fit(field, rows.mean(world.rest), rows.mean(world.design), prior(), like);
+  if (fit.log_likelihood() < least) return {fit.log_likelihood(), fit.covariance};
+  return likelihood_of(world);
+}
+
 InPlan OwnWorldFits::settle(OwnWorld& world, const noise::Covariance& covariance) {
   InPlan sd{};
   constexpr double step = 0.05;  // m

@@ -72,6 +72,8 @@ class OwnWorldFits {
   OwnWorld with_levels(OwnWorld world) const;
   // Profile likelihood of the readings, with the noise fitted in this world.
   Likelihood likelihood_of(const OwnWorld& world) const;
+  // The same with the family of that noise alone where this leaves it at less than so many nats.
+  Likelihood likelihood_of(const OwnWorld& world, const noise::Covariance& like, double least) const;
   // Moves the place by generalised least squares; its standard errors.
   InPlan settle(OwnWorld& world, const noise::Covariance& covariance);
 
