@@ -237,8 +237,8 @@ inline constexpr Eigen::Index worth_sketching = 2;
 inline constexpr Eigen::Index worth_localising = 4000;
 // m; beyond the map within which a radio is sought, times the plan's scale; chosen; none
 inline constexpr double beyond_map = 10;
-// m; standard deviation of a radio's place about the map's, times the plan's scale; chosen;
-// Outdoors.ARadioIsFoundThatStandsSeventyMetresOff
+// m; standard deviation of a radio's place about the map's, times the plan's scale;
+// chosen; none
 inline constexpr double misplaced_spread = 3;
 // share; of misplaced radios, of those that stand anywhere in the area and not near the map's place; chosen;
 // Candidates.ARadioMayStandFarFromItsMappedPlace
