@@ -172,9 +172,8 @@ bool LinkCauseDomain::admits(const CauseShape& shape, const inference::Candidate
 }
 
 // Prior: a radio lies within a few metres of its mapped place, in the plan's scale, or, by a blunder, anywhere in the
-// area. Displacements
-// within the accuracy of map and mount are excluded. In a smooth field, millimetres that move links past the end of a
-// wall would be significant.
+// area. Displacements within the accuracy of map and mount are excluded. In a smooth field, millimetres that move links
+// past the end of a wall would be significant.
 void LinkCauseDomain::believe_in_map(const CauseShape& shape, inference::Candidate& c) const {
   std::vector<Eigen::Vector2d> mapped;
   for (const CauseRow& row : shape.rows)
